@@ -1,5 +1,6 @@
 // patchmill-import: reads the bytes of a STEP or IGES file from its standard input and answers on its
 // standard output with frames (core/base/frames.h). The server starts one for each file.
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <charconv>
@@ -9,6 +10,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -62,6 +64,7 @@ class Answers {
 // What the command line asks for.
 struct ImportOrder {
   std::string format;
+  std::vector<std::string> skipped;  // ids of faces
   TrimParams trim;
 };
 
@@ -76,12 +79,41 @@ std::optional<ImportOrder> ReadOrder(const std::vector<std::string_view>& argume
       const char* end = value.data() + value.size();
       if (std::from_chars(value.data(), end, order.trim.border_tolerance).ptr != end) return std::nullopt;
       if (!(order.trim.border_tolerance >= 1e-7 && order.trim.border_tolerance <= 1.0)) return std::nullopt;
+    } else if (option == "--skip-face") {
+      order.skipped.emplace_back(value);
     } else {
       return std::nullopt;
     }
   }
   if (order.format.empty()) return std::nullopt;
   return order;
+}
+
+// The faces of these ids. NOT_FOUND with a sentence for an id that no face has.
+absl::StatusOr<std::vector<FaceId>> FindFaces(const std::vector<std::string>& ids, std::size_t count) {
+  std::vector<FaceId> faces;
+  for (const std::string& id : ids) {
+    std::size_t number = 0;
+    const bool read = id.starts_with('f') &&
+                      std::from_chars(id.data() + 1, id.data() + id.size(), number).ec == std::errc();
+    if (!read || number < 1 || number > count || id != fmt::format("f{}", number)) {
+      return absl::NotFoundError(
+          fmt::format("= \"{}\"; must be a face of the file, which has the faces f1 to f{}", id, count));
+    }
+    faces.emplace_back(number - 1);
+  }
+  return faces;
+}
+
+// Faults of a skipped face do not stop the import: a box stands in its place. FACE_UNTRIMMED does: what a lost
+// loop surrounds may lie outside the box.
+Diagnostics Forgiven(Diagnostics findings, const std::vector<std::string>& skipped) {
+  for (Diagnostic& finding : findings) {
+    const bool named = std::find(skipped.begin(), skipped.end(), finding.where.face_id) != skipped.end();
+    if (named && finding.severity == Severity::kError && finding.code != "FACE_UNTRIMMED")
+      finding.severity = Severity::kWarning;
+  }
+  return findings;
 }
 
 int Import(const ImportOrder& order, const Answers& answers) {
@@ -96,13 +128,21 @@ int Import(const ImportOrder& order, const Answers& answers) {
     answers.Send(FrameKind::kProgress, fmt::format("{:.3f} {}", all, stage));
   });
   run.set_threads(1);
-  const absl::StatusOr<ImportedPart> part = ReadPart(ReadInput(), order.format, run);
+  absl::StatusOr<ImportedPart> part = ReadPart(ReadInput(), order.format, run);
   if (!part.ok()) {
     const std::string code = CodeOf(part.status());
     answers.Error(code.empty() ? "CAD_UNREADABLE" : code, std::string(part.status().message()));
     return 1;
   }
-  const absl::StatusOr<TrimmedModel> trimmed = TrimFaces(part->model, order.trim, run);
+  TrimParams params = order.trim;
+  absl::StatusOr<std::vector<FaceId>> skipped = FindFaces(order.skipped, part->model.faces.size());
+  if (!skipped.ok()) {
+    answers.Error("UNKNOWN_FACE", std::string(skipped.status().message()));
+    return 1;
+  }
+  params.skipped = *std::move(skipped);
+  part->facts.findings = Forgiven(std::move(part->facts.findings), order.skipped);
+  const absl::StatusOr<TrimmedModel> trimmed = TrimFaces(part->model, params, run);
   if (!trimmed.ok()) {
     answers.Error("NO_FACE", std::string(trimmed.status().message()));
     return 1;
@@ -120,8 +160,9 @@ int main(int argc, char** argv) {
   using namespace patchmill;
   const std::optional<ImportOrder> order = ReadOrder({argv + 1, argv + argc});
   if (!order) {
-    std::cerr << "usage: patchmill-import --format step|iges [--border-tolerance MM] < FILE\n"
-                 "patchmill and patchmilld start it for each CAD file; its answer is not text.\n";
+    std::cerr
+        << "usage: patchmill-import --format step|iges [--border-tolerance MM] [--skip-face ID]... < FILE\n"
+           "patchmill and patchmilld start it for each CAD file; its answer is not text.\n";
     return 2;
   }
   // The reader writes to its standard output: the answers get a descriptor of their own.

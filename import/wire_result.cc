@@ -66,6 +66,7 @@ void AddFace(const ModelFace& face, v1::PatchModel& model) {
   wire.set_radius_mm(face.radius);
   wire.set_hollow(face.hollow);
   wire.set_entity(face.entity);
+  wire.set_skipped(face.skipped);
 }
 
 }  // namespace

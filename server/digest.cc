@@ -89,6 +89,7 @@ void AddFaces(const PatchModel& model, Canonical& out) {
     out.Add(face.id).Add(face.name).Add(face.body).Add(face.layer);
     out.Add(face.rgb ? std::int64_t{*face.rgb} : -1).Add(static_cast<std::int64_t>(face.kind));
     out.Add(face.radius).Add(std::int64_t{face.hollow}).Add(face.entity);
+    if (face.skipped) out.Add("skipped");
   }
   for (const Patch& patch : model.patches) out.Add(patch.face ? std::int64_t{patch.face->value} : -1);
 }

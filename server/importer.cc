@@ -129,6 +129,7 @@ std::vector<std::string> ArgumentsOf(const std::string& program, const ImportPar
   if (params.border_tolerance) {
     arguments.insert(arguments.end(), {"--border-tolerance", fmt::format("{}", *params.border_tolerance)});
   }
+  for (const std::string& id : params.skipped) arguments.insert(arguments.end(), {"--skip-face", id});
   return arguments;
 }
 
@@ -186,6 +187,7 @@ absl::Status ImporterError(std::string_view text) {
   const std::string_view code = text.substr(0, space);
   const std::string sentence = Utf8(space == std::string_view::npos ? text : text.substr(space + 1));
   if (code == "IMPORT_LIMIT") return absl::ResourceExhaustedError(sentence);
+  if (code == "UNKNOWN_FACE") return CodedError(code, sentence);
   return ModelUnreadableError(fmt::format("CAD file: {}", sentence), Utf8(code));
 }
 

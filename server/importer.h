@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <absl/status/statusor.h>
 
@@ -25,6 +26,7 @@ struct Imported {
 // How a file is read.
 struct ImportParams {
   std::string_view format;                      // "step" or "iges"
+  std::vector<std::string> skipped = {};        // ids of faces that a box replaces
   std::optional<double> border_tolerance = {};  // mm; default that of TrimParams (core/trim/trim_model.h)
 };
 
@@ -33,7 +35,8 @@ struct ImportParams {
 // patchmill-import beside the running one. The answer is counted before it is parsed, as any message, and
 // held in `in_flight` (may be null). Errors: those of `run`; INVALID_ARGUMENT MODEL_UNREADABLE for a file
 // that cannot be read, or on which the importer died; RESOURCE_EXHAUSTED for limits of time and memory;
-// UNIMPLEMENTED where there is no importer.
+// UNIMPLEMENTED where there is no importer. A CodedError
+// UNKNOWN_FACE for a skipped face that the file does not have; its message completes a path.
 absl::StatusOr<Imported> ImportFile(std::string_view content, const ImportParams& params,
                                     const RunContext& run, InFlight* in_flight = nullptr);
 // The same with another program as importer.

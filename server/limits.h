@@ -37,6 +37,7 @@ inline constexpr std::size_t kMaxNetworkReferences = 16 * kMaxPatches;  // verti
 // Numbers in all lists of a request together: coordinates, weights and knots.
 inline constexpr std::size_t kMaxRequestNumbers = 4 * kMaxControlPoints + kMaxKnots;
 inline constexpr std::size_t kMaxIdBytes = 200;
+inline constexpr int kMaxSkippedFaces = 1000;          // of one CAD file
 inline constexpr int kMaxModelFindings = 5000;         // that a model brings along
 inline constexpr std::size_t kMaxFindingBytes = 4000;  // of the message of one
 inline constexpr std::size_t kMaxNameBytes = 100;

@@ -133,6 +133,50 @@ std::optional<Diagnostic> FaultOfFinding(const v1::Diagnostic& proto, int index)
   return std::nullopt;
 }
 
+// What follows from the faces of a model that are skipped. It is said of every such model, whatever it brings
+// along.
+constexpr std::string_view kSkippedFace = "SKIPPED_FACE", kNotAllFaces = "NOT_ALL_FACES";
+
+Diagnostics SkippedFindings(const PatchModel& model) {
+  constexpr std::size_t kMostListed = 10;
+  std::vector<Box3> boxes(model.faces.size());
+  for (const Patch& patch : model.patches) {
+    if (!patch.face || !model.faces[patch.face->index()].skipped) continue;
+    for (const Vec3& p : ControlPoints(patch.shape)) boxes[patch.face->index()].Add(p);
+  }
+  Diagnostics findings;
+  std::vector<std::string> ids;
+  for (std::size_t f = 0; f < model.faces.size(); ++f) {
+    const ModelFace& face = model.faces[f];
+    if (!face.skipped) continue;
+    ids.push_back(face.id);
+    const Box3& box = boxes[f];
+    std::string where = "no box around it is known";
+    if (!box.Empty()) {
+      where = fmt::format(
+          "the tool keeps off the box X {:.3f} to {:.3f}, Y {:.3f} to {:.3f}, Z {:.3f} to {:.3f} of the "
+          "model "
+          "around it",
+          box.min.x(), box.max.x(), box.min.y(), box.max.y(), box.min.z(), box.max.z());
+    }
+    findings.push_back(
+        MakeWarning(kSkippedFace,
+                    fmt::format("face {} is skipped: {}, and nothing of it is finished", Title(face), where),
+                    {.face_id = face.id}));
+  }
+  if (ids.empty()) return findings;
+  const std::size_t count = ids.size();
+  if (count > kMostListed) ids.resize(kMostListed);
+  findings.insert(
+      findings.begin(),
+      MakeWarning(
+          kNotAllFaces,
+          fmt::format("{} of {} faces skipped: {}{}; the tool keeps off a box around each, "
+                      "and nothing of them is finished",
+                      count, model.faces.size(), fmt::join(ids, ", "), count > kMostListed ? ", ..." : "")));
+  return findings;
+}
+
 absl::StatusOr<LoadedModel> LoadMessage(const v1::PatchModel& model, const std::string& at,
                                         const RunContext& run) {
   if (model.findings_size() > limits::kMaxModelFindings) {
@@ -147,10 +191,13 @@ absl::StatusOr<LoadedModel> LoadMessage(const v1::PatchModel& model, const std::
   loaded.faults = std::move(checked->faults);
   loaded.remarks = std::move(checked->remarks);
   loaded.network = model.has_network();
+  if (loaded.faults.empty()) {
+    for (Diagnostic& finding : SkippedFindings(loaded.model)) loaded.remarks.push_back(std::move(finding));
+  }
   for (int k = 0; k < model.findings_size(); ++k) {
     if (auto wrong = FaultOfFinding(model.findings(k), k)) {
       loaded.faults.push_back(*std::move(wrong));
-    } else {
+    } else if (model.findings(k).code() != kSkippedFace && model.findings(k).code() != kNotAllFaces) {
       loaded.remarks.push_back(FromProto(model.findings(k)));
     }
   }
@@ -214,6 +261,18 @@ ImportParams ReadImportParams(const v1::ModelFile& file, std::string_view format
                 options.border_tolerance_mm() <= limits::kMaxBorderToleranceMm,
             fmt::format("in [{:g}, {:g}]", limits::kMinBorderToleranceMm, limits::kMaxBorderToleranceMm));
   }
+  const int count = options.skip_faces_size();
+  if (count > limits::kMaxSkippedFaces) {
+    errors.Add(At(at, "import_options.skip_faces"),
+               fmt::format("has {} elements; must have at most {}", count, limits::kMaxSkippedFaces));
+  }
+  for (int k = 0; k < count; ++k) {
+    RequireBytes(errors, fmt::format("{}[{}]", At(at, "import_options.skip_faces"), k), options.skip_faces(k),
+                 limits::kMaxIdBytes);
+    if (options.skip_faces(k).find('\0') != std::string::npos)
+      errors.Add(fmt::format("{}[{}]", At(at, "import_options.skip_faces"), k), "has a byte 0");
+    params.skipped.push_back(options.skip_faces(k));
+  }
   return params;
 }
 
@@ -223,6 +282,11 @@ absl::Status RefuseImportOptions(const v1::ModelFile& file, std::string_view at)
   if (file.import_options().has_border_tolerance_mm()) {
     errors.Add(At(at, "import_options.border_tolerance_mm"),
                "is set; only CAD files (step, iges) are read with it");
+  }
+  if (file.import_options().skip_faces_size() > 0) {
+    errors.Add(
+        At(at, "import_options.skip_faces"),
+        "is set; only faces of CAD files (step, iges) are skipped; those of other models can be avoided");
   }
   return errors.ToStatus();
 }
@@ -235,8 +299,13 @@ absl::StatusOr<LoadedModel> LoadCad(const v1::ModelFile& file, std::string_view 
     errors.Add(At(at, "length_unit"), "must be unset: a CAD file states its own unit");
   const ImportParams params = ReadImportParams(file, format, at, errors);
   PM_RETURN_IF_ERROR(errors.ToStatus());
-  PM_ASSIGN_OR_RETURN(const Imported imported, ImportFile(file.content(), params, run, in_flight));
-  const v1::ImportResult& result = imported.result;
+  const absl::StatusOr<Imported> imported = ImportFile(file.content(), params, run, in_flight);
+  if (CodeOf(imported.status()) == "UNKNOWN_FACE") {
+    errors.Add(At(at, "import_options.skip_faces"), std::string(imported.status().message()));
+    return errors.ToStatus();
+  }
+  PM_RETURN_IF_ERROR(imported.status());
+  const v1::ImportResult& result = imported->result;
   PM_ASSIGN_OR_RETURN(LoadedModel loaded, LoadMessage(result.model(), At(at, "content"), run));
   loaded.remarks.push_back(ImportRemark(result.report(), format));
   for (const v1::Diagnostic& finding : result.report().findings()) {

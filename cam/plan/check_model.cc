@@ -33,6 +33,7 @@ Diagnostics WallsWithoutSide(const Surface& surface) {
   Diagnostics found;
   std::set<FaceId> reported;
   for (const PatchId id : surface.two_sided_walls) {
+    if (IsSkipped(model, id)) continue;  // nothing of it is milled
     const std::optional<FaceId>& face = model.patches[id.index()].face;
     if (face && !reported.insert(*face).second) continue;  // one finding for all patches of a face
     found.push_back(MakeWarning(

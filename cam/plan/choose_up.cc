@@ -86,6 +86,7 @@ FaceNormal NormalOf(const PatchModel& model, FaceId id) {
   const ModelFace& face = model.faces[id.index()];
   if (face.kind != SurfaceKind::kPlane)
     return {std::nullopt, fmt::format("must be a plane face: it is a {}", Name(face.kind))};
+  if (face.skipped) return {std::nullopt, "must be a face that is read: it is skipped"};
   const SampledFace sampled = Sample(model, id);
   if (!(sampled.area.norm() > 0.0)) return {std::nullopt, "must be a face that has patches"};
   const Vec3 normal = sampled.area.normalized();

@@ -1,5 +1,8 @@
 #include "cam/plan/resolve.h"
 
+#include <utility>
+#include <vector>
+
 #include <fmt/format.h>
 
 #include "cam/limits/reach_tolerance.h"
@@ -26,6 +29,16 @@ Budget SplitBudget(double tolerance) {
 
 namespace {
 
+// The avoided patches with those of skipped faces.
+std::vector<bool> WithSkipped(std::vector<bool> avoided, const PatchModel& model) {
+  for (std::size_t i = 0; i < model.patches.size(); ++i) {
+    if (!IsSkipped(model, PatchId(i))) continue;
+    avoided.resize(model.patches.size(), false);
+    avoided[i] = true;
+  }
+  return avoided;
+}
+
 Outline Shifted(const std::vector<Ring>& rings, const Vec3& by) {
   std::vector<Ring> moved = rings;
   for (Ring& ring : moved) {
@@ -42,6 +55,7 @@ absl::StatusOr<Containment> ResolveContainment(const Surface& surface, const Job
                       SelectPatches(surface.network, selection.patches, "selection.patch_ids", run));
   PM_ASSIGN_OR_RETURN(c.avoided,
                       SelectPatches(surface.network, selection.avoid, "selection.avoid_patch_ids", run));
+  c.avoided = WithSkipped(std::move(c.avoided), surface.network.model);
   c.avoid_margin = selection.avoid_margin;
   if (!selection.boundary.empty()) {
     c.boundary = {Shifted(selection.boundary, zero), selection.boundary_mode, selection.boundary_offset};

@@ -28,6 +28,7 @@ std::vector<Sample> SamplesOf(const Surface& surface, int cells) {
   std::vector<Sample> samples;
   samples.reserve(surface.pieces.size() * static_cast<std::size_t>(cells * cells));
   for (const Piece& piece : surface.pieces) {
+    if (IsSkipped(surface.network.model, piece.patch)) continue;
     for (int k = 0; k < cells * cells; ++k) {
       const SurfaceJet jet = Evaluate(piece, (k / cells + 0.5) / cells, (k % cells + 0.5) / cells);
       const Vec3 normal = jet.du.cross(jet.dv);
@@ -44,7 +45,9 @@ std::vector<Vec3> PlaneNormals(const Surface& surface) {
   std::vector<std::optional<Vec3>> normals(model.faces.size());
   for (const Piece& piece : surface.pieces) {
     const std::optional<FaceId>& face = model.patches[piece.patch.index()].face;
-    if (!face || normals[face->index()] || model.faces[face->index()].kind != SurfaceKind::kPlane) continue;
+    if (!face || IsSkipped(model, piece.patch) || normals[face->index()] ||
+        model.faces[face->index()].kind != SurfaceKind::kPlane)
+      continue;
     const SurfaceJet jet = Evaluate(piece, 0.5, 0.5);
     const Vec3 normal = jet.du.cross(jet.dv);
     if (normal.norm() > 0.0) normals[face->index()] = normal.normalized();

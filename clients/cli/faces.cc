@@ -56,10 +56,10 @@ void Print(const v1::CheckModelResponse& response) {
              "area, mm2", "tilt, degrees", "Z, mm", "in the file");
   for (const v1::FaceInfo& info : response.faces()) {
     const std::string tilt = Range(info.min_tilt_deg(), info.max_tilt_deg(), 1);
+    const std::string shown = info.face().skipped() ? "skipped" : info.patch_count() > 0 ? tilt : "lost";
     const std::string z = info.has_box() ? Range(info.box().min().z_mm(), info.box().max().z_mm(), 3) : "";
     fmt::print("{:<{}}  {:<{}}  {:>12.4f}  {:<14}  {:<20}  {}\n", Printable(info.face().id()), id_width,
-               KindText(info.face()), kind_width, info.area_mm2(), info.patch_count() > 0 ? tilt : "lost", z,
-               LabelText(info.face()));
+               KindText(info.face()), kind_width, info.area_mm2(), shown, z, LabelText(info.face()));
   }
 }
 

@@ -251,6 +251,11 @@ void AddReadingOptions(CLI::App& app, ReadingOptions& options) {
       app, "--border-tolerance", options.border_tolerance,
       "CAD files: how far the borders of patches may lie from the edges of faces where they cannot follow "
       "them\nexactly, mm in the file; default 0.0001");
+  app.add_option(
+         "--skip-face", options.skip_faces,
+         "CAD files: leave out these faces (f12), separated by commas, for instance those that cannot be "
+         "read;\nthe tool keeps off a box around each, and nothing of them is finished")
+      ->delimiter(',');
 }
 
 absl::StatusOr<v1::ModelSource> ReadModel(const std::string& path, const ReadingOptions& options) {
@@ -268,6 +273,8 @@ absl::StatusOr<v1::ModelSource> ReadModel(const std::string& path, const Reading
     file.set_format(ending.substr(1));
   }
   file.set_content(*std::move(bytes));
+  for (const std::string& id : options.skip_faces)
+    file.mutable_import_options()->add_skip_faces(WireText(id, 200));
   if (options.border_tolerance) {
     file.mutable_import_options()->set_border_tolerance_mm(*options.border_tolerance);
   }

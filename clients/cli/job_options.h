@@ -65,6 +65,7 @@ absl::StatusOr<v1::Point3> ReadPoint(const std::string& text, const char* option
 // How a CAD file is read.
 struct ReadingOptions {
   std::optional<double> border_tolerance;
+  std::vector<std::string> skip_faces;
 };
 void AddReadingOptions(CLI::App& app, ReadingOptions& options);
 

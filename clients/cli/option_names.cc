@@ -35,6 +35,7 @@ constexpr Entry kOptions[] = {
     {"regions_sha256", "--regions"},
     {"setup.up", "--up"},
     {"up_face", "--up"},
+    {"skip_faces", "--skip-face"},
     {"border_tolerance_mm", "--border-tolerance"},
     {"scale", "--scale"},
     {"setup.translation.x_mm", "--translate"},

@@ -99,6 +99,7 @@ struct BrepFace {
   double surface_error = 0.0;
   // Area by the reader's own means, mm^2, for comparison; absent where unknown.
   std::optional<double> area;
+  std::optional<Box3> box = {};  // that holds the face, by the reader's own means; where it could not be read
 };
 
 struct BrepBody {

@@ -20,6 +20,8 @@ struct ModelFace {
   double radius = 0.0;      // mm: of a cylinder, a sphere, the tube of a torus; else 0
   bool hollow = false;      // the surface of revolution surrounds air: a drill hole, a fillet in a corner
   std::int64_t entity = 0;  // number of the face in the file; 0 unknown
+  // Not read: its patches are a box that holds it. The tool keeps off the box, and none of it is finished.
+  bool skipped = false;
 };
 
 // "f12 (pocket floor)", or "f12" without a name.

@@ -8,6 +8,11 @@
 
 namespace patchmill {
 
+bool IsSkipped(const PatchModel& model, PatchId patch) {
+  const std::optional<FaceId>& face = model.patches[patch.index()].face;
+  return face && model.faces[face->index()].skipped;
+}
+
 Where WhereOf(const PatchModel& model, PatchId patch) {
   const Patch& p = model.patches[patch.index()];
   Where where;

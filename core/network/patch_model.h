@@ -30,6 +30,8 @@ struct PatchModel {
   std::vector<ModelFace> faces;          // that patches are parts of; may be empty
 };
 
+// Whether the patch is a part of a face that is skipped.
+bool IsSkipped(const PatchModel& model, PatchId patch);
 // The place of a finding about a patch: the patch's id, its index and the id of its face.
 Where WhereOf(const PatchModel& model, PatchId patch);
 // "face f12 (pocket floor)" or "face f12" for a part of a face, else "patch 7 (lid)" or "patch 7".

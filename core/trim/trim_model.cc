@@ -1,6 +1,7 @@
 #include "core/trim/trim_model.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <iterator>
@@ -18,6 +19,7 @@
 #include "core/patch/patch_figures.h"
 #include "core/trim/border_trace.h"
 #include "core/trim/edge_fit.h"
+#include "core/trim/face_box.h"
 #include "core/trim/face_cells.h"
 #include "core/trim/face_trace.h"
 #include "core/trim/spanned_curve.h"
@@ -28,6 +30,8 @@ namespace {
 constexpr double kLargestGap = 0.05;       // mm: what a file may be off, at least
 constexpr double kLargestGapShare = 2e-3;  // of the part's size: what it may be off where that is more
 constexpr double kAreaAgreement = 1e-4;    // of an area or a volume
+
+constexpr double kBoxMargin = 1e-4;  // of the part's size: by how much the box of a skipped face is larger
 
 // One edge as a part of a face's border.
 struct UsePlace {
@@ -259,6 +263,11 @@ class Volumes {
  public:
   explicit Volumes(std::size_t bodies) : sums_(bodies) {}
 
+  // The volume of this face's body is not known.
+  void Lose(const BrepFace& face) {
+    if (face.body >= 0 && At(face.body) < sums_.size()) sums_[At(face.body)].whole = false;
+  }
+
   // `slack`: mm^2 by which the face may be off, at `reach` mm from the origin.
   void Add(const BrepFace& face, const TrimmedFace& trimmed, double volume, double slack, double reach) {
     if (face.body < 0 || At(face.body) >= sums_.size()) return;
@@ -339,6 +348,30 @@ double JoinTolerance(double error, double size) {
   return std::clamp(2.0 * kMargin * error, kLeastShare * size, most);
 }
 
+bool IsSkipped(const TrimParams& params, std::size_t face) {
+  return std::find(params.skipped.begin(), params.skipped.end(), FaceId(face)) != params.skipped.end();
+}
+
+std::string PatchIdOf(const ModelFace& face, std::size_t count, std::size_t k) {
+  return count == 1 ? face.id : absl::StrCat(face.id, ".", k + 1);
+}
+
+// The patches of a skipped face: a box that holds it, in steps of the quantum.
+std::vector<Patch> BoxPatches(const BrepModel& part, std::size_t index, const ModelFace& face, double margin,
+                              double quantum) {
+  Box3 box = BoxOfFace(part, part.faces[index]);
+  std::vector<Patch> patches;
+  if (box.Empty()) return patches;
+  for (int k = 0; k < 3; ++k) {
+    box.min[k] = std::floor((box.min[k] - margin) / quantum) * quantum;
+    box.max[k] = std::ceil((box.max[k] + margin) / quantum) * quantum;
+  }
+  const std::array<BezierPatch, 6> sides = SidesOf(box);
+  for (std::size_t k = 0; k < sides.size(); ++k)
+    patches.push_back({PatchIdOf(face, sides.size(), k), sides[k], FaceId(index)});
+  return patches;
+}
+
 // All faces one after the other, judged.
 absl::StatusOr<TrimmedModel> Join(const BrepModel& part, const EdgeCurveTable& curves,
                                   const std::vector<TracedFace>& traced, const std::vector<CutOutcome>& cut,
@@ -361,13 +394,30 @@ absl::StatusOr<TrimmedModel> Join(const BrepModel& part, const EdgeCurveTable& c
     result.model.faces.push_back(FaceOf(part, f));
     const ModelFace& named = result.model.faces.back();
     face.first_patch = static_cast<int>(result.model.patches.size());
+    if (IsSkipped(params, f)) {
+      result.model.faces.back().skipped = true;
+      const double margin = std::max(params.border_tolerance, kBoxMargin * size);
+      for (Patch& patch : BoxPatches(part, f, named, margin, quantum)) {
+        result.model.patches.push_back(std::move(patch));
+        ++face.patch_count;
+      }
+      if (face.patch_count == 0) {
+        result.findings.push_back(MakeError(
+            "FACE_LOST",
+            absl::StrFormat("face %s cannot be skipped: nothing is known of where it lies", Title(named)),
+            {.face_id = named.id}));
+      }
+      volumes.Lose(part.faces[f]);
+      result.faces.push_back(std::move(face));
+      continue;
+    }
     face.patch_count = static_cast<int>(cut[f].nets.size());
     face.gap = traced[f].gap();
     face.border_error = cut[f].border_error + CurveError(part, part.faces[f]);
     double volume = 0.0;
     for (std::size_t k = 0; k < cut[f].nets.size(); ++k) {
-      std::string id = cut[f].nets.size() == 1 ? named.id : absl::StrCat(named.id, ".", k + 1);
-      Patch patch{std::move(id), PatchOf(cut[f].nets[k], part.faces[f].reversed, quantum), FaceId(f)};
+      Patch patch{PatchIdOf(named, cut[f].nets.size(), k),
+                  PatchOf(cut[f].nets[k], part.faces[f].reversed, quantum), FaceId(f)};
       const PatchFigures figures =
           FiguresOf([&patch](double u, double v) { return Evaluate(patch.shape, u, v); }, box.Center());
       face.area += figures.area;
@@ -402,8 +452,10 @@ absl::StatusOr<TrimmedModel> TrimFaces(const BrepModel& part, const TrimParams& 
     curves.push_back(edge.degenerate || edge.curve.points.empty() ? SpannedCurve{} : SpansOf(edge.curve));
   }
   std::vector<TracedFace> traced(part.faces.size());
-  PM_RETURN_IF_ERROR(ParallelFor(run, "trim.trace", traced.size(),
-                                 [&](std::size_t f) { traced[f] = TraceFace(part.faces[f], curves, run); }));
+  PM_RETURN_IF_ERROR(ParallelFor(run, "trim.trace", traced.size(), [&](std::size_t f) {
+    traced[f] = IsSkipped(params, f) ? TracedFace{absl::FailedPreconditionError("it is skipped"), {}}
+                                     : TraceFace(part.faces[f], curves, run);
+  }));
   const UsesOfEdges uses = UsesOf(part);
   std::vector<FittedEdge> edges(part.edges.size());
   PM_RETURN_IF_ERROR(ParallelFor(run, "trim.fit", edges.size(), [&](std::size_t e) {

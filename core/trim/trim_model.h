@@ -17,14 +17,15 @@
 namespace patchmill {
 
 struct TrimParams {
-  double border_tolerance = 1e-4;  // mm, >= 1e-7
+  double border_tolerance = 1e-4;    // mm, >= 1e-7
+  std::vector<FaceId> skipped = {};  // a box that holds the face stands in the place of each
 };
 
 // One face of the file after trimming.
 struct TrimmedFace {
   int first_patch = 0;  // in TrimmedModel::model
   int patch_count = 0;  // 0: lost; a finding says why
-  double area = 0.0;    // mm^2, of the patches
+  double area = 0.0;    // mm^2, of the patches; 0 for a skipped face
   double gap = 0.0;     // mm, largest distance of the face's edges from its surface
   // mm, largest distance of the patches' border from the edges' feet on the surface, and of the edges from
   // those of the file.
@@ -34,6 +35,7 @@ struct TrimmedFace {
 struct TrimmedModel {
   // Mm; u x v points out of the body. Its faces are those of the BrepModel, lost ones too, called "f1", "f2"
   // and so on; the patches of the twelfth are "f12", or "f12.1", "f12.2" and so on.
+  // A skipped face has the six sides of a box that is larger by at least 1e-4 of the part's size.
   // The join tolerance follows from the gaps and border errors found.
   PatchModel model;
   std::vector<TrimmedFace> faces;                // as BrepModel::faces

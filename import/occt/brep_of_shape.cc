@@ -129,6 +129,7 @@ class Reader {
       whole_ = false;
       face.surface = BrepPlane{};
       face.loops.clear();
+      if (const Box3 box = BoxOf(shape); !box.Empty()) face.box = box;
       std::string reason(read.message());
       std::string code = "FACE_UNREADABLE";
       for (const char* special : {"OFFSET_FOLDS", "NEGATIVE_WEIGHT"}) {

@@ -54,6 +54,7 @@ ModelFace FromProto(const v1::Face& proto, int index, Diagnostics& faults) {
   face.radius = proto.radius_mm();
   face.hollow = proto.hollow();
   face.entity = proto.entity();
+  face.skipped = proto.skipped();
   return face;
 }
 
@@ -68,6 +69,7 @@ v1::Face ToProto(const ModelFace& face) {
   proto.set_radius_mm(face.radius);
   proto.set_hollow(face.hollow);
   proto.set_entity(face.entity);
+  proto.set_skipped(face.skipped);
   return proto;
 }
 

@@ -35,7 +35,7 @@ absl::StatusOr<UprightModel> MakeUpright(LoadedModel model, const Setup& setup, 
 Diagnostics HeaderRemarks(const Diagnostics& remarks) {
   Diagnostics stated;
   for (const Diagnostic& remark : remarks) {
-    if (remark.code == "UP_CHOSEN") stated.push_back(remark);
+    if (remark.code == "UP_CHOSEN" || remark.code == "NOT_ALL_FACES") stated.push_back(remark);
   }
   return stated;
 }
