@@ -159,24 +159,6 @@ Diagnostics Assumptions(const Job& job, const Resolved& r) {
   return list;
 }
 
-// Where the tool goes down beside the part, if it does anywhere.
-absl::StatusOr<Diagnostics> BesidePart(const Surface& surface, const Toolpath& toolpath, const Resolved& r,
-                                       const RunContext& run) {
-  Diagnostics found;
-  PM_ASSIGN_OR_RETURN(const std::optional<BesideDepth> deepest,
-                      DeepestBeside(surface, toolpath, r.box.max.z(), run));
-  if (!deepest) return found;
-  const Vec3 tip = deepest->tip - r.program_zero;
-  found.push_back(Warning(
-      "TOOL_BESIDE_PART",
-      fmt::format(
-          "the tool goes down beside the part to Z{:.4f} at X{:.4f} Y{:.4f}, {:.3f} mm below the part's "
-          "top: nothing may stand there",
-          tip.z(), tip.x(), tip.y(), deepest->below_top)));
-  found.back().where.point = deepest->tip;
-  return found;
-}
-
 std::vector<std::string> Header(const Job& job, const Resolved& r, const Diagnostics& assumptions) {
   std::vector<std::string> lines = job.header;
   lines.push_back(
@@ -381,7 +363,9 @@ absl::StatusOr<JobResult> PlanAndJudge(const Surface& surface, const Job& job, c
   PM_RETURN_IF_ERROR(CheckMotion(job.path_limits, result.motion));
   report.motion = result.motion.stats;
   report.point_count = static_cast<int>(result.motion.toolpath.moves.size());
-  PM_ASSIGN_OR_RETURN(const Diagnostics beside, BesidePart(surface, result.motion.toolpath, resolved, run));
+  PM_ASSIGN_OR_RETURN(const Diagnostics beside,
+                      FindToolBesidePart(surface, TipsOf(result.motion.toolpath), resolved.radius,
+                                         resolved.program_zero, run));
   report.diagnostics.insert(report.diagnostics.end(), beside.begin(), beside.end());
   clock.Done("link");
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "cam/plan/beside_depth.h"
 #include "cam/plan/plan.h"
 #include "cam/plan/resolve.h"
 #include "cam/post/program_reader.h"
@@ -147,6 +148,10 @@ absl::Status Make(const Call& call, const v1::VerifyProgramRequest& request, Job
   }
   AddDiagnostics(HeaderRemarks(upright.model.remarks), resolved.program_zero, report->mutable_diagnostics());
   AddDiagnostics(WallsWithoutSide(surface), resolved.program_zero, report->mutable_diagnostics());
+  PM_ASSIGN_OR_RETURN(const Diagnostics beside,
+                      FindToolBesidePart(surface, TipsOf(*motion, resolved.program_zero), resolved.radius,
+                                         resolved.program_zero, run));
+  AddDiagnostics(beside, resolved.program_zero, report->mutable_diagnostics());
   AddDiagnostics(verify.findings, resolved.program_zero, report->mutable_diagnostics());
   return absl::OkStatus();
 }
