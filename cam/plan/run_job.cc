@@ -23,6 +23,7 @@
 #include "cam/plan/unused_settings.h"
 #include "cam/post/program_reader.h"
 #include "cam/region/split_regions.h"
+#include "cam/toolpath/straighten.h"
 #include "core/base/error_details.h"
 #include "core/base/polled_run.h"
 #include "core/base/status.h"
@@ -181,7 +182,9 @@ absl::StatusOr<LinkResult> Link(const JobContext& context, const Locator& locato
     }
   }
   const LinkParams params = MakeLinkParams(context.job, context.resolved, within ? &*within : parts.limits);
-  return LinkPaths(locator, map, std::move(paths), params, context.run);
+  PM_ASSIGN_OR_RETURN(LinkResult linked, LinkPaths(locator, map, std::move(paths), params, context.run));
+  linked.toolpath = Straightened(std::move(linked.toolpath));
+  return linked;
 }
 
 // The choices with the quickest angles where they are open. Each of up to kQuickestAnglePlans plans costs as

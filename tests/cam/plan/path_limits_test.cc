@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/error_details.h"
+#include "core/patch/piece.h"
 #include "tests/support/jobs/jobs.h"
 #include "tests/support/shapes.h"
 
@@ -59,15 +60,29 @@ TEST(PathLimits, AreThoseOfTheProgram) {
   }
 }
 
-// The least cut length counts a surface twice that lies on itself again. Its passes are made once, and only
-// they count for the limit.
+// The same surface, but for a strip along two sides of each piece: no patch of it is a copy of a whole one.
+PatchModel MostOf(const PatchModel& whole, double share) {
+  PatchModel most;
+  for (const Patch& patch : whole.patches) {
+    for (const Piece& piece : SplitIntoPieces(PatchId(0), patch.shape)) {
+      const BernsteinNet part = SubNet(piece.net, 0.0, share, 0.0, share);
+      BezierPatch bezier{part.degree_u, part.degree_v, {}, {}};
+      for (const Vec4& p : part.points) bezier.points.emplace_back(p.head<3>());
+      most.patches.push_back({"", std::move(bezier)});
+    }
+  }
+  return most;
+}
+
+// The least cut length counts surface twice that lies on other surface in part. Its passes are made once, and
+// only they count for the limit.
 TEST(PathLimits, AnEstimateRefusesNothing) {
   const Surface once = PlacedSurface(Hill());
-  const Surface thrice = PlacedSurface(Join({Hill(), Hill(), Hill()}));
+  const Surface thrice = PlacedSurface(Join({Hill(), MostOf(Hill(), 0.99), MostOf(Hill(), 0.985)}));
   Job job = BallJob(3.0);
   job.operation.scallop = 0.05;
   const JobResult free = Mill(once, job);
-  job.path_limits.length = 1.6 * (free.report.motion.cut_length + free.report.motion.link_length);
+  job.path_limits.length = 1.5 * (free.report.motion.cut_length + free.report.motion.link_length);
   const JobResult result = Mill(thrice, job);
   EXPECT_GT(result.report.least_cut_length, job.path_limits.length);
   EXPECT_FALSE(result.program.empty()) << Describe(result);
