@@ -147,6 +147,14 @@ void AddLimits(const Job& job, Canonical& out) {
   }
 }
 
+// What differs from the post that Patchmill brings along under this name.
+void AddPost(const Job& job, Canonical& out) {
+  const Dialect* known = FindDialect(job.dialect.name);
+  if (known == nullptr || known->text != job.dialect.text) out.Add(job.dialect.text);
+  if (job.program_number != 1) out.Add(std::int64_t{job.program_number});
+  if (job.control_deviation) out.Add(*job.control_deviation);
+}
+
 }  // namespace
 
 std::string ModelDigest(const PatchModel& model) {
@@ -184,7 +192,8 @@ std::string JobDigest(const Job& job, std::string_view model_digest, std::string
   AddOptional(op.clearance_z, out);
   AddOptional(op.clearance_z ? op.clearance_above : op.clearance_above.value_or(kDefaultClearanceAbove), out);
   AddOptional(op.floor_z, out);
-  out.Add(op.approach_gap).Add(job.dialect).Add(job.work_offset);
+  out.Add(op.approach_gap).Add(job.dialect.name).Add(job.work_offset);
+  AddPost(job, out);
   out.Add(std::int64_t{job.default_cutting_data}).Add(std::int64_t{job.unitless_file});
   AddLimits(job, out);
   return out.Digest();

@@ -165,6 +165,7 @@ std::vector<NamedService> MakeServices(ServerEnv* env) {
   services.push_back(ServiceBuilder(env, v1::ToolpathService::service_full_name())
                          .Add("GenerateProgram", HandleGenerateProgram)
                          .Add("VerifyProgram", HandleVerifyProgram)
+                         .Add("ListPosts", HandleListPosts)
                          .Build());
   return services;
 }

@@ -141,8 +141,12 @@ struct Operation {
 struct Job {
   Setup setup;
   Operation operation;
-  std::string dialect = "linuxcnc";
+  Dialect dialect = LinuxCnc();
   std::string work_offset = "G54";
+  int program_number = 1;  // 1..9999, where the dialect numbers its programs
+  // mm: by how much the control leaves the path, where the dialect has no word that says so. Unset: exact
+  // stop.
+  std::optional<double> control_deviation;
   std::vector<std::string> header;    // extra comment lines (request hash, version, model name)
   bool default_cutting_data = false;  // the client used defaults: warn ([machining M5])
   bool unitless_file = false;         // warn when the extent looks wrong ([machining M14])

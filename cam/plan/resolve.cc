@@ -100,6 +100,9 @@ absl::StatusOr<Resolved> Resolve(const Surface& surface, const Job& job, const R
   r.plan_radius = r.radius + op.leave;
   r.split_angle = op.steep_angle - kSplitSlack;
   r.budget = SplitBudget(op.tolerance);
+  if (job.dialect.follows_exactly) r.budget.controller = 0.0;
+  if (!job.dialect.follows_exactly && job.dialect.path_tolerance.empty())
+    r.budget.controller = job.control_deviation.value_or(0.0);
   const double top = r.box.max.z();
   r.stock_top_z = job.setup.stock_top_z ? *job.setup.stock_top_z + zero_z : top + job.setup.allowance;
   if (r.stock_top_z < top - 1e-6) {

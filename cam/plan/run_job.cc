@@ -300,6 +300,16 @@ absl::StatusOr<std::vector<PlanPart>> VerifiedParts(const Surface& surface, cons
 
 namespace {
 
+// A post file of the user's own may write what the reader does not know.
+absl::Status CannotReadBack(const Dialect& dialect, const absl::Status& status) {
+  if (status.code() != absl::StatusCode::kInvalidArgument) return status;
+  return FieldError(
+      "post.post_file",
+      fmt::format("of the dialect {}: the program cannot be read back, so it cannot be verified: {}; "
+                  "[words] of the post file says what a word of the control does",
+                  dialect.name, std::string(status.message())));
+}
+
 absl::StatusOr<JobResult> PlanAndJudge(const Surface& surface, const Job& job, const RunContext& run) {
   PM_RETURN_IF_ERROR(ValidateJob(job));
   PM_ASSIGN_OR_RETURN(const Resolved resolved, Resolve(surface, job, run));
@@ -374,6 +384,7 @@ absl::StatusOr<JobResult> PlanAndJudge(const Surface& surface, const Job& job, c
 
   PostParams post;
   post.dialect = job.dialect;
+  post.program_number = job.program_number;
   post.work_offset = job.work_offset;
   post.program_zero = resolved.program_zero;
   post.zero_name = resolved.zero_name;
@@ -387,8 +398,12 @@ absl::StatusOr<JobResult> PlanAndJudge(const Surface& surface, const Job& job, c
 
   // As many moves as were written: CheckMotion has bounded them.
   const std::size_t most_moves = std::max(ReaderParams().max_moves, 2 * result.motion.toolpath.moves.size());
-  PM_ASSIGN_OR_RETURN(const ProgramMotion read, ReadProgram(program, {.max_moves = most_moves, .run = &run}));
-  PM_ASSIGN_OR_RETURN(report.verify, Verify(surface, job.operation.tool, read,
+  const auto read = ReadProgram(program, {.max_moves = most_moves,
+                                          .run = &run,
+                                          .dialect = job.dialect,
+                                          .control_deviation = job.control_deviation});
+  if (!read.ok()) return CannotReadBack(job.dialect, read.status());
+  PM_ASSIGN_OR_RETURN(report.verify, Verify(surface, job.operation.tool, *read,
                                             MakeVerifyParams(job, resolved, parts.parts), run));
   clock.Done("verify");
   if (report.verify.NothingToFinish()) return nothing(report.verify.reachable_area);

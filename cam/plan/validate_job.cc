@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "cam/plan/plan.h"
+#include "cam/plan/resolve.h"
 #include "core/base/error_details.h"
 #include "core/base/status.h"
 
@@ -45,6 +46,44 @@ absl::Status ValidateLimits(const Job& job) {
                              fmt::format("in [-{0}, {0}]", kMaxLength)));
     PM_RETURN_IF_ERROR(Range((at + "margin_mm").c_str(), o.margin, o.margin >= 0 && o.margin <= kMaxWiden,
                              fmt::format("in [0, {}]", kMaxWiden)));
+  }
+  return absl::OkStatus();
+}
+
+// The rounding of coordinates and what the control does must fit into the tolerance.
+absl::Status ValidatePost(const Job& job) {
+  const Dialect& dialect = job.dialect;
+  const double tolerance = job.operation.tolerance, share = SplitBudget(tolerance).controller;
+  const Coolant coolant = job.operation.tool.coolant;
+  if (coolant != Coolant::kOff && CoolantLine(dialect, coolant).empty()) {
+    return FieldError("tool.coolant",
+                      fmt::format("is not what the dialect {} has a word for; add it to [coolant] "
+                                  "of a post file of your own, or switch it off",
+                                  dialect.name));
+  }
+  if (job.control_deviation) {
+    const double deviation = *job.control_deviation;
+    if (dialect.assumed_path.empty()) {
+      return FieldError("post.control_deviation_mm",
+                        fmt::format("= {:.6g}; must be unset: the dialect {} says itself how far the control "
+                                    "leaves the path",
+                                    deviation, dialect.name));
+    }
+    if (!(deviation > 0.0 && deviation <= share)) {
+      return FieldError("post.control_deviation_mm",
+                        fmt::format("= {:.6g}; must be in (0, {:.6g}], the control's share of tolerance_mm = "
+                                    "{:.6g}; raise the tolerance, or leave it unset for exact stop",
+                                    deviation, share, tolerance));
+    }
+  }
+  // The share of a control that follows exactly is free for the rounding.
+  const bool exact = dialect.follows_exactly || (dialect.path_tolerance.empty() && !job.control_deviation);
+  const double room = SplitBudget(tolerance).rounding + (exact ? share : 0.0);
+  const double rounding = 0.5 * std::sqrt(3.0) * std::pow(10.0, -dialect.decimals);
+  if (dialect.decimals < 4 && rounding > room) {
+    return FieldError("tolerance_mm",
+                      fmt::format("= {:.6g}; must be at least {:.4g} for the {} decimals of the dialect {}",
+                                  tolerance, tolerance * rounding / room, dialect.decimals, dialect.name));
   }
   return absl::OkStatus();
 }
@@ -127,14 +166,7 @@ absl::Status ValidateJob(const Job& job) {
   PM_RETURN_IF_ERROR(length("setup.program_zero.x_mm", job.setup.zero_point.x()));
   PM_RETURN_IF_ERROR(length("setup.program_zero.y_mm", job.setup.zero_point.y()));
   PM_RETURN_IF_ERROR(length("setup.program_zero.z_mm", job.setup.zero_point.z()));
-  bool known = false;
-  std::string list;
-  for (const std::string& dialect : KnownDialects()) {
-    known = known || dialect == job.dialect;
-    list += (list.empty() ? "" : ", ") + dialect;
-  }
-  if (!known)
-    return FieldError("post.dialect", fmt::format("= \"{}\"; must be one of: {}", job.dialect, list));
+  PM_RETURN_IF_ERROR(ValidatePost(job));
   if (!IsWorkOffset(job.work_offset))
     return FieldError("post.work_offset", fmt::format("= \"{}\"; must be G54 to G59", job.work_offset));
   return absl::OkStatus();

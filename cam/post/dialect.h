@@ -1,33 +1,68 @@
-// Dialects: the differences between controls, as data [machining, section 5].
+// Dialects: the differences between controls, as data [machining, section 5]. A dialect is read from a
+// text, a post file. docs/posts.md describes every key and placeholder of it.
 #pragma once
 
+#include <cstddef>
+#include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include <absl/status/statusor.h>
+
 namespace patchmill {
 
+// How the lines of a program are built.
+enum class Syntax {
+  kRs274,    // G1 X10 Y5
+  kSiemens,  // the same, with Siemens' own words
+  kKlartext  // L X+10 Y+5, Heidenhain conversational
+};
+
+// What a word of a control does beyond RS274, as far as the reader of programs must know.
+struct DialectWord {
+  char tolerance_letter = '\0';  // its value (mm) limits how far the control leaves the path; 0: no effect
+};
+
 struct Dialect {
-  std::string name;
+  std::string name, title;
+  Syntax syntax = Syntax::kRs274;
   int decimals = 4;                    // of X, Y, Z in mm
   std::size_t max_comment_length = 0;  // characters in one comment line, including its marks
   std::string comment_open, comment_close;
-  std::string comment_marks;  // inside a comment these characters become brackets
-  std::string safe_start;     // before any motion; {0} is the work offset
-  std::string home_z;         // straight up to machine zero, above everything
-  std::string tool_change;    // {0} is the tool number
-  std::string spindle_on;     // {0} is the speed, 1/min
-  std::string tool_length;    // {0} is the tool number; must not move anything
-  // {0} is the tolerance, mm. It switches off the merging of nearly collinear moves, so that the control
-  // deviates by {0} at most.
+  bool upper_case = false;   // of comments
+  bool feed_point = false;   // F always has a decimal point
+  int line_number_step = 0;  // 0: lines have no numbers
+  std::string line_end = "\n";
+  // On a line with G20 or G21, F counts in the new unit; else in the unit in force before the line.
+  bool feed_in_new_unit = false;
+
+  // The control leaves the path by nothing, whatever the modes.
+  bool follows_exactly = false;
+  // {tolerance} (mm): limits how far the control leaves the path. It also switches off the merging of nearly
+  // collinear moves. Empty: the control has no such word.
   std::string path_tolerance;
-  std::string exact_path;  // used instead if the tolerance rounds to 0
-  std::string flood_on, mist_on, air_on, coolant_off, spindle_off;
-  std::string restore;  // before the end; restores the modes that the next program may rely on
-  std::string end;
+  double least_tolerance = 0.0;  // mm; below it exact_path is used
+  std::string exact_path;
+  // Used where path_tolerance is empty and the user states by how much the control leaves the path.
+  std::string assumed_path;
+
+  std::string flood_on, mist_on, air_on;
+  std::map<std::string, DialectWord> words;  // by their spelling: "G187"
+  // Lines with placeholders {...}. A line whose placeholder stands for nothing is left out.
+  std::vector<std::string> begin, end;
+
+  std::string text;  // of the post file
 };
 
+// Reads a post file. INVALID_ARGUMENT for the first fault, with its line: "line 12: ...". Cost O(text).
+absl::StatusOr<Dialect> ParseDialect(std::string_view text);
+
+// The dialects that Patchmill brings along, by name.
 const std::vector<Dialect>& Dialects();
 const Dialect* FindDialect(std::string_view name);  // nullptr if unknown
+const Dialect& LinuxCnc();                          // the default
+std::string DialectNames();                         // "fanuc, grbl, ..."
 
 }  // namespace patchmill

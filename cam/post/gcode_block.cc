@@ -74,11 +74,16 @@ absl::StatusOr<double> ParseNumber(char letter, std::string_view code, std::size
 
 absl::Status ParseGcodeLine(std::string_view line, GcodeBlock& block) {
   block.words.clear();
-  block.percent = false;
+  block.percent = block.program_number = false;
   static thread_local std::string code;
   PM_RETURN_IF_ERROR(StripLine(line, code));
   if (code == "%") {
     block.percent = true;
+    return absl::OkStatus();
+  }
+  if (code.size() >= 2 && code.size() <= 9 && code.front() == 'O' &&
+      code.find_first_not_of("0123456789", 1) == std::string::npos) {
+    block.program_number = true;
     return absl::OkStatus();
   }
   std::size_t at = 0;

@@ -17,9 +17,11 @@ struct GcodeWord {
 struct GcodeBlock {
   std::vector<GcodeWord> words;  // in their order, without N
   bool percent = false;          // the line is a single %
+  bool program_number = false;   // the line is a single O word: "O0001"
 };
 
-// Accepts comments "( )" and ";", spaces anywhere, lower case, and N at the start. INVALID_ARGUMENT (without
+// Accepts comments "( )" and ";", spaces anywhere, lower case, N at the start, and O with a number alone.
+// INVALID_ARGUMENT (without
 // the line number) for expressions, parameters, O-words, block delete, unclosed or nested comments, and any
 // other byte. `block` is overwritten; reuse it to save allocations.
 absl::Status ParseGcodeLine(std::string_view line, GcodeBlock& block);

@@ -20,6 +20,7 @@ BlockModes::Code* GroupOfG(BlockModes& modes, int code) {
     case 800:
       return &modes.motion;
     case 40:
+    case 280:
     case 530:
       return &modes.once;
     case 170:
@@ -84,10 +85,16 @@ std::string Spell(const GcodeWord& word) { return fmt::format("{}{:.10g}", word.
 
 }  // namespace
 
-absl::StatusOr<BlockModes> SortModes(const GcodeBlock& block) {
+absl::StatusOr<BlockModes> SortModes(const GcodeBlock& block, const Dialect& dialect) {
   BlockModes modes;
   for (const GcodeWord& word : block.words) {
     if (word.letter == 'G' || word.letter == 'M') {
+      if (const auto own = dialect.words.find(Spell(word)); own != dialect.words.end()) {
+        if (modes.word)
+          return absl::InvalidArgumentError(Spell(word) + ": another such word is in the same line");
+        modes.word = own->second;
+        continue;
+      }
       const double tenfold = word.number * 10.0;
       BlockModes::Code* group = nullptr;
       int code = -1;
@@ -104,7 +111,8 @@ absl::StatusOr<BlockModes> SortModes(const GcodeBlock& block) {
       continue;
     }
     constexpr std::string_view kKnown = "FHIJKPQRSTXYZ";
-    if (kKnown.find(word.letter) == std::string_view::npos) {
+    const bool of_own = modes.word && (word.letter == modes.word->tolerance_letter || word.letter == 'E');
+    if (kKnown.find(word.letter) == std::string_view::npos && !of_own) {
       return absl::InvalidArgumentError(Spell(word) + " is not supported");
     }
     auto& value = modes.value[static_cast<std::size_t>(word.letter - 'A')];

@@ -6,6 +6,7 @@
 
 #include <absl/status/statusor.h>
 
+#include "cam/post/dialect.h"
 #include "cam/post/gcode_block.h"
 
 namespace patchmill {
@@ -21,13 +22,14 @@ struct BlockModes {
   Code tool_length;                             // G43 G49
   Code work_offset;                             // G54 .. G59
   Code path;                                    // G61 G61.1 G64
-  Code once;                                    // G4 G53
+  Code once;                                    // G4 G28 G53
   Code compensation;                            // G40
   Code feed_mode;                               // G94
   Code stop;                                    // M0 M1 M2 M30
   Code tool_change;                             // M6
   Code spindle;                                 // M3 M4 M5
   Code coolant;                                 // M7 M8 M9
+  std::optional<DialectWord> word;              // a word of the dialect's own
   std::array<std::optional<double>, 26> value;  // of the other letters, by letter - 'A'
 
   const std::optional<double>& operator[](char letter) const {
@@ -35,8 +37,8 @@ struct BlockModes {
   }
 };
 
-// INVALID_ARGUMENT (without the line number) for codes and letters that are not supported, for two codes of
-// one group, and for a letter that occurs twice.
-absl::StatusOr<BlockModes> SortModes(const GcodeBlock& block);
+// INVALID_ARGUMENT (without the line number) for codes and letters that neither RS274 nor the dialect has,
+// for two codes of one group, and for a letter that occurs twice.
+absl::StatusOr<BlockModes> SortModes(const GcodeBlock& block, const Dialect& dialect);
 
 }  // namespace patchmill

@@ -47,17 +47,20 @@ std::string FormatShort(double value, int decimals) {
 }
 
 std::vector<std::string> CommentLines(const Dialect& dialect, std::string_view text) {
+  constexpr std::string_view kMarks = "()";  // inside any comment these become brackets
   std::string safe;
   for (const char c : text) {
     const auto byte = static_cast<unsigned char>(c);
-    const std::size_t mark = dialect.comment_marks.find(c);
+    const std::size_t mark = kMarks.find(c);
     if (byte >= 0x80 && byte < 0xC0) continue;  // a tail byte of UTF-8; each character becomes one '?'
-    if (mark != std::string::npos) {
+    if (mark != std::string_view::npos) {
       safe += mark % 2 == 0 ? '[' : ']';
     } else if (byte == '\n' || byte == '\r' || byte == '\t') {
       safe += ' ';
+    } else if (byte < 0x20 || byte > 0x7e) {
+      safe += '?';
     } else {
-      safe += byte < 0x20 || byte > 0x7e ? '?' : c;
+      safe += dialect.upper_case ? static_cast<char>(std::toupper(byte)) : c;
     }
   }
   const std::size_t room =

@@ -8,8 +8,8 @@
 #include <fmt/format.h>
 
 #include "cam/post/arc_chords.h"
-#include "cam/post/gcode_block.h"
 #include "cam/post/gcode_modes.h"
+#include "cam/post/program_lines.h"
 #include "core/base/status.h"
 
 namespace patchmill {
@@ -27,7 +27,7 @@ absl::Status Bad(const std::string& message) { return absl::InvalidArgumentError
 // The state of the control and its motion so far.
 class Interpreter {
  public:
-  explicit Interpreter(const ReaderParams& params) : params_(params) {}
+  explicit Interpreter(const ReaderParams& params) : params_(params), dialect_(params_.dialect) {}
 
   absl::Status Run(const BlockModes& block, int line);
   bool ended() const { return ended_; }
@@ -37,9 +37,12 @@ class Interpreter {
   absl::Status CheckUse(const BlockModes& block) const;
   absl::Status SetModes(const BlockModes& block);
   absl::Status SetPathMode(const BlockModes& block);
+  double Smoothing() const;  // mm: by how much the control may leave the path now
   absl::Status SetTool(const BlockModes& block);
   absl::Status SetOffsets(const BlockModes& block);
   absl::Status Home(const BlockModes& block);
+  absl::Status Reference(const BlockModes& block);
+  absl::Status UpToMachineZero(ProgramMove::Kind kind);
   absl::Status Straight(const BlockModes& block);
   absl::Status Arc(const BlockModes& block);
   // Notes what the program leaves to the control's state, once each, when it first matters.
@@ -55,6 +58,7 @@ class Interpreter {
   absl::Status Emit(ProgramMove::Kind kind, const Vec3& to, bool to_above, double chord_error);
 
   ReaderParams params_;
+  const Dialect& dialect_;
   ProgramMotion motion_;
   int line_ = 0;
   int motion_mode_ = 800;
@@ -69,8 +73,11 @@ class Interpreter {
   double feed_ = 0.0;             // mm/min
   int feed_line_ = 0;             // line of the F in force
   bool feed_unit_stated_ = true;  // G20 or G21 was in force when it was read
-  double smoothing_ = 0.0;
-  bool unit_stated_ = false, distance_stated_ = false, path_stated_ = false, arc_stated_ = false;
+  enum class PathMode { kNotStated, kExact, kBlended };
+  PathMode path_mode_ = PathMode::kNotStated;
+  double blending_ = 0.0;               // mm, of G64
+  std::optional<double> own_blending_;  // mm, by a word of the dialect's own
+  bool unit_stated_ = false, distance_stated_ = false, arc_stated_ = false;
   int length_of_ = -1;           // H of the last G43; -1 if it had none
   int tool_ = -1, loaded_ = -1;  // T of the program and the tool in the spindle; -1 if not known yet
   int work_offset_ = 0;          // code; 0 if not stated yet
@@ -92,12 +99,16 @@ absl::Status Interpreter::CheckUse(const BlockModes& block) const {
   const bool smooth = block.path == 640;
   const int mode = block.motion.value_or(motion_mode_);
   const bool arc = mode == 20 || mode == 30;
-  if (block['P'] && !dwell && !smooth) return Bad("P without G4 or G64");
-  if (block['Q'] && !smooth) return Bad("Q without G64");
+  const bool own = block.word.has_value();
+  if (block['P'] && !dwell && !smooth && !own) return Bad("P without G4 or G64");
+  if (block['Q'] && !smooth && !own) return Bad("Q without G64");
+  if (own && (HasAxis(block) || HasCenter(block) || block.once))
+    return Bad("coordinates beside a word of the dialect's own");
   if (block['H'] && block.tool_length != 430) return Bad("H without G43");
   if (dwell && (!block['P'] || smooth || HasAxis(block))) return Bad("G4 needs P and no coordinates");
   if (HasCenter(block) && !arc) return Bad("I, J, K or R without G2 or G3");
-  if (HasAxis(block) && mode == 800) return Bad("coordinates while no motion is in force");
+  if (HasAxis(block) && mode == 800 && block.once != 280)
+    return Bad("coordinates while no motion is in force");
   for (const char letter : {'F', 'P', 'Q', 'H', 'S', 'T'}) {
     if (block[letter] && *block[letter] < 0.0) return Bad(fmt::format("{} is negative", letter));
   }
@@ -106,16 +117,24 @@ absl::Status Interpreter::CheckUse(const BlockModes& block) const {
 
 absl::Status Interpreter::SetPathMode(const BlockModes& block) {
   if (!block.path) return absl::OkStatus();
-  path_stated_ = true;
-  if (*block.path != 640) {
-    smoothing_ = 0.0;
+  path_mode_ = *block.path == 640 ? PathMode::kBlended : PathMode::kExact;
+  if (path_mode_ == PathMode::kExact) return absl::OkStatus();
+  if (dialect_.path_tolerance.substr(0, 3) != "G64") {
+    if (block['P'] || block['Q']) return Bad("G64 has no P and no Q in this dialect");
+    blending_ = params_.control_deviation.value_or(kInfinity);
   } else if (block['P'].value_or(0.0) == 0.0) {
-    smoothing_ = kInfinity;  // for LinuxCNC P0 means that there is no limit
+    blending_ = kInfinity;  // for LinuxCNC P0 means that there is no limit
   } else {
     // LinuxCNC merges moves within Q and blends the result within P. If Q is absent it takes Q = P.
-    smoothing_ = unit_ * (*block['P'] + block['Q'].value_or(*block['P']));
+    blending_ = unit_ * (*block['P'] + block['Q'].value_or(*block['P']));
   }
   return absl::OkStatus();
+}
+
+double Interpreter::Smoothing() const {
+  if (dialect_.follows_exactly || path_mode_ == PathMode::kExact) return 0.0;
+  if (own_blending_) return *own_blending_;
+  return path_mode_ == PathMode::kBlended ? blending_ : 0.0;
 }
 
 absl::Status Interpreter::SetTool(const BlockModes& block) {
@@ -160,6 +179,12 @@ absl::Status Interpreter::SetOffsets(const BlockModes& block) {
 // of execution; LinuxCNC's interpreter does the same).
 void Interpreter::SetFeed(const BlockModes& block) {
   if (!block['F']) return;
+  if (dialect_.feed_in_new_unit) {
+    feed_ = *block['F'] * (block.units ? UnitOf(*block.units) : unit_);
+    feed_line_ = line_;
+    feed_unit_stated_ = unit_stated_ || block.units;
+    return;
+  }
   feed_ = *block['F'] * unit_;
   feed_line_ = line_;
   feed_unit_stated_ = unit_stated_;
@@ -185,6 +210,10 @@ absl::Status Interpreter::SetModes(const BlockModes& block) {
   if (block.plane) plane_ = *block.plane;
   PM_RETURN_IF_ERROR(SetOffsets(block));
   PM_RETURN_IF_ERROR(SetPathMode(block));
+  if (block.word && block.word->tolerance_letter != '\0') {
+    const auto& value = block[block.word->tolerance_letter];
+    own_blending_ = value ? unit_ * *value : kInfinity;
+  }
   if (block.distance) incremental_ = *block.distance == 910;
   if (block.arc_distance) arc_absolute_ = *block.arc_distance == 901;
   if (block.motion) motion_mode_ = *block.motion;
@@ -216,8 +245,14 @@ void Interpreter::NoteAssumptions(ProgramMove::Kind kind, bool below) {
   if (kind == ProgramMove::Kind::kFeed && spindle_on_ && reversed_) {
     Note("SPINDLE_REVERSED", "M4 is in force; a right-hand cutter does not cut that way");
   }
-  if (kind == ProgramMove::Kind::kFeed && !path_stated_) {
+  if (kind != ProgramMove::Kind::kFeed || dialect_.follows_exactly) return;
+  if (path_mode_ == PathMode::kNotStated && !own_blending_) {
     Note("PATH_MODE_ASSUMED", "neither G61 nor G64 so far; taken as no smoothing");
+  } else if (path_mode_ == PathMode::kBlended && params_.control_deviation && !own_blending_ &&
+             Smoothing() == *params_.control_deviation) {
+    Note("CONTROL_DEVIATION_ASSUMED",
+         fmt::format("the control is taken to leave the path by at most {:.4g} mm: no word says so",
+                     *params_.control_deviation));
   }
 }
 
@@ -240,9 +275,9 @@ absl::Status Interpreter::Emit(ProgramMove::Kind kind, const Vec3& to, bool to_a
   move.chord_error = chord_error;
   move.spindle_on = spindle_on_ && speed_ > 0.0;
   if (kind == ProgramMove::Kind::kFeed) {
-    motion_.controller_tolerance = std::max(motion_.controller_tolerance, smoothing_);
+    motion_.controller_tolerance = std::max(motion_.controller_tolerance, Smoothing());
   } else if (!(above_ && to_above)) {
-    motion_.rapid_tolerance = std::max(motion_.rapid_tolerance, smoothing_);
+    motion_.rapid_tolerance = std::max(motion_.rapid_tolerance, Smoothing());
   }
   if (!(above_ && to_above)) {
     const bool straight_up = Xy(to) == Xy(at_) && !above_ && (to_above || to.z() > at_.z());
@@ -263,12 +298,36 @@ absl::Status Interpreter::Home(const BlockModes& block) {
   if (incremental_) return Bad("G53 while G91 is in force");
   if (*z < 0.0) return Bad("G53 with Z below machine zero: it is not known to be above everything");
   if (motion_mode_ == 10 && !(feed_ > 0.0)) return Bad("feed move without a feed rate");
+  return UpToMachineZero(motion_mode_ == 0 ? ProgramMove::Kind::kRapid : ProgramMove::Kind::kFeed);
+}
+
+absl::Status Interpreter::UpToMachineZero(ProgramMove::Kind kind) {
   if (!moved_) motion_.first_motion_is_up = true;
   shifted_ = false;
-  const auto kind = motion_mode_ == 0 ? ProgramMove::Kind::kRapid : ProgramMove::Kind::kFeed;
   PM_RETURN_IF_ERROR(Emit(kind, at_, true, 0.0));
   motion_.last_motion_is_up = true;
   return absl::OkStatus();
+}
+
+// G28: a rapid to the coordinates in the mode in force, then the axes that are named go to machine zero.
+absl::Status Interpreter::Reference(const BlockModes& block) {
+  const auto& z = block['Z'];
+  if (!HasAxis(block)) return Bad("G28 without coordinates moves all axes at once; give Z alone");
+  if ((block['X'] || block['Y']) && (z || !above_)) {
+    return Bad("G28 with X or Y is supported only without Z, and above everything");
+  }
+  if (!z) {
+    known_[0] = known_[0] && !block['X'];
+    known_[1] = known_[1] && !block['Y'];
+    return absl::OkStatus();
+  }
+  if (!incremental_ || *z != 0.0) {
+    if (!moved_ && incremental_) return Bad("G28 is incremental from an unknown place");
+    PM_ASSIGN_OR_RETURN(const Vec3 to, Target(block));
+    NoteAssumptions(ProgramMove::Kind::kRapid, true);
+    PM_RETURN_IF_ERROR(Emit(ProgramMove::Kind::kRapid, to, false, 0.0));
+  }
+  return UpToMachineZero(ProgramMove::Kind::kRapid);
 }
 
 absl::StatusOr<Vec3> Interpreter::Target(const BlockModes& block) {
@@ -357,6 +416,8 @@ absl::Status Interpreter::Run(const BlockModes& block, int line) {
   const bool explicit_arc = arc && block.motion.has_value();
   if (block.once == 530) {
     PM_RETURN_IF_ERROR(Home(block));
+  } else if (block.once == 280) {
+    PM_RETURN_IF_ERROR(Reference(block));
   } else if (HasAxis(block) || HasCenter(block) || explicit_arc) {
     if (motion_mode_ != 0 && !(feed_ > 0.0)) return Bad("feed move without a feed rate");
     PM_RETURN_IF_ERROR(arc ? Arc(block) : Straight(block));
@@ -384,10 +445,9 @@ absl::Status AtLine(int line, const absl::Status& status) {
 absl::StatusOr<ProgramMotion> ReadProgram(std::string_view text, const ReaderParams& params) {
   if (!(params.arc_chord_error > 0.0)) return Bad("arc_chord_error must be > 0 mm");
   Interpreter interpreter(params);
-  GcodeBlock block;
-  bool percent_opened = false, begun = false;
+  ProgramLines lines(params.dialect);
   int line = 0;
-  for (std::size_t begin = 0; begin < text.size() && !interpreter.ended();) {
+  for (std::size_t begin = 0; begin < text.size() && !interpreter.ended() && !lines.ended();) {
     const std::size_t end = std::min(text.find('\n', begin), text.size());
     std::string_view code = text.substr(begin, end - begin);
     begin = end + 1;
@@ -397,18 +457,10 @@ absl::StatusOr<ProgramMotion> ReadProgram(std::string_view text, const ReaderPar
     if (code.size() > params.max_line_length) {
       return AtLine(line, Bad(fmt::format("longer than {} characters", params.max_line_length)));
     }
-    if (const absl::Status parsed = ParseGcodeLine(code, block); !parsed.ok()) return AtLine(line, parsed);
-    if (block.percent) {
-      if (percent_opened) break;  // the second % ends the program
-      if (begun) return AtLine(line, Bad("% within the program"));
-      percent_opened = begun = true;
-      continue;
-    }
-    if (block.words.empty()) continue;
-    begun = true;
-    const auto modes = SortModes(block);
-    const absl::Status done = modes.ok() ? interpreter.Run(*modes, line) : modes.status();
-    if (!done.ok()) return AtLine(line, done);
+    const auto block = lines.Read(code);
+    if (!block.ok()) return AtLine(line, block.status());
+    if (!block->has_value()) continue;
+    if (const absl::Status done = interpreter.Run(**block, line); !done.ok()) return AtLine(line, done);
   }
   return interpreter.Take();
 }

@@ -1,11 +1,13 @@
 // Reads the text of a program back into motion, for the verifier [verification, section 3]. It reads any
-// LinuxCNC-like text, ours or another's.
+// RS274-like text, ours or another's.
 #pragma once
 
+#include <optional>
 #include <string_view>
 
 #include <absl/status/statusor.h>
 
+#include "cam/post/dialect.h"
 #include "cam/toolpath/toolpath.h"
 #include "core/base/run_context.h"
 
@@ -16,12 +18,20 @@ struct ReaderParams {
   std::size_t max_moves = 5'000'000;   // these take 400 MB
   std::size_t max_line_length = 1000;  // characters
   const RunContext* run = nullptr;     // polled if set
+  Dialect dialect = LinuxCnc();
+  // mm: by how much the control leaves the path while no exact stop is in force, if the dialect has no word
+  // that says so. Unset: without a limit.
+  std::optional<double> control_deviation = {};
 };
 
 // Reads G0-G3, G4, G17-G19, G20/G21, G40, G43/G49, G53 (Z only), G54-G59, G61/G61.1/G64, G80, G90/G91,
-// G90.1/G91.1, G94, F, S, T, M0-M9, M30, comments, N and %. Positions are those of the program (the tip,
-// after G43), in mm. The words of a line take effect in LinuxCNC's order, whatever their order in the line: F
-// counts in the unit before the line; then come G20/G21; coordinates and G64 P count in the new unit.
+// G90.1/G91.1, G94, F, S, T, M0-M9, M30, comments, N, a program number and %, G28 with Z, and the words of
+// the dialect. Lines of Siemens and of Heidenhain conversational programs are read into the same groups
+// (siemens_block.h, klartext_block.h). Positions are those of the program (the tip, after G43), in mm. The
+// words of a line take effect in LinuxCNC's order, whatever their order in the line: F counts in the unit
+// before the line (in the new one where the dialect says so); then come G20/G21; coordinates and G64 P count
+// in the new unit. G28 goes straight to its coordinates first, then up to machine zero; X and Y are allowed
+// in it only above everything.
 //
 // INVALID_ARGUMENT with its line ("line 12: ...") for any other word. RESOURCE_EXHAUSTED for more than
 // max_moves. CANCELLED and DEADLINE_EXCEEDED from `run`. Cost: one second for three million lines.

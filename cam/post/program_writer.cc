@@ -1,5 +1,6 @@
 #include "cam/post/program_writer.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -7,6 +8,7 @@
 
 #include "cam/post/dialect.h"
 #include "cam/post/number_format.h"
+#include "cam/post/post_template.h"
 #include "core/base/status.h"
 
 namespace patchmill {
@@ -14,6 +16,7 @@ namespace patchmill {
 namespace {
 
 constexpr double kLargestCoordinate = 1e6;  // mm
+constexpr int kLargestLineNumber = 99'999;  // of N words; then they begin again
 constexpr std::array<const char*, 3> kAxis = {"X", "Y", "Z"};
 using Ticks = std::array<std::int64_t, 3>;
 
@@ -23,28 +26,25 @@ struct RoundedMove {
   double feed = 0.0;
 };
 
-std::string JoinDialects() {
-  std::string list;
-  for (const std::string& name : KnownDialects()) list += (list.empty() ? "" : ", ") + name;
-  return list;
-}
-
 absl::Status Validate(const Toolpath& toolpath, const Tool& tool, const PostParams& params) {
   const auto bad = [](const std::string& message) { return absl::InvalidArgumentError(message); };
-  if (FindDialect(params.dialect) == nullptr) {
-    return bad(fmt::format("post.dialect = \"{}\"; must be one of: {}", params.dialect, JoinDialects()));
+  if (params.program_number < 1 || params.program_number > 9999) {
+    return bad(fmt::format("post.program_number = {}; must be in [1, 9999]", params.program_number));
   }
   if (!IsWorkOffset(params.work_offset)) {
     return bad(fmt::format("post.work_offset = \"{}\"; must be G54 to G59", params.work_offset));
   }
-  if (!(params.controller_tolerance > 0.0) || !std::isfinite(params.controller_tolerance)) {
-    return bad(fmt::format("controller_tolerance = {} mm; must be > 0", params.controller_tolerance));
+  if (!(params.controller_tolerance >= 0.0) || !std::isfinite(params.controller_tolerance)) {
+    return bad(fmt::format("controller_tolerance = {} mm; must be >= 0", params.controller_tolerance));
   }
   if (!(tool.spindle_rpm > 0.0) || !(tool.spindle_rpm <= 1e6)) {
     return bad(fmt::format("tool.spindle_rpm = {}; must be in (0, 1e6]", tool.spindle_rpm));
   }
   if (tool.number < 1 || tool.number > 99999) {
     return bad(fmt::format("tool.number = {}; must be in [1, 99999]", tool.number));
+  }
+  if (tool.coolant != Coolant::kOff && CoolantLine(params.dialect, tool.coolant).empty()) {
+    return bad(fmt::format("tool.coolant: the dialect {} has no word for it", params.dialect.name));
   }
   if (toolpath.moves.empty()) return bad("toolpath: no moves; nothing to write");
   const double largest =
@@ -91,33 +91,54 @@ std::vector<RoundedMove> RoundMoves(const Toolpath& toolpath, const PostParams& 
   return moves;
 }
 
+// A coordinate as a program has it.
+std::string PlaceText(const Dialect& dialect, std::int64_t ticks) {
+  const bool plus = dialect.syntax == Syntax::kKlartext && ticks >= 0;
+  return fmt::format("{}{}", plus ? "+" : "", FormatTicks(ticks, dialect.decimals));
+}
+
 // Writes blocks without repeating modal words.
 class BlockWriter {
  public:
-  explicit BlockWriter(int decimals) : decimals_(decimals) {}
+  explicit BlockWriter(const Dialect& dialect) : dialect_(dialect) {}
 
-  void Line(std::string_view text) {
+  // A line without a number, where lines need none.
+  void Bare(std::string_view text) {
+    if (IsKlartext()) text_ += fmt::format("{} ", number_++);  // every line is a numbered block
     text_ += text;
-    text_ += '\n';
+    text_ += dialect_.line_end;
   }
-  // The first motion from machine zero: X and Y above everything, then Z alone.
-  void First(const RoundedMove& move) {
-    Line(fmt::format("G0 X{} Y{}", FormatTicks(move.to[0], decimals_), FormatTicks(move.to[1], decimals_)));
-    Line(fmt::format("Z{}", FormatTicks(move.to[2], decimals_)));
-    at_ = move.to;
+  void Line(std::string_view text) {
+    const bool numbered = dialect_.line_number_step > 0 && text != "%" && text.front() != 'O';
+    if (numbered && !IsKlartext()) {
+      number_ += dialect_.line_number_step;
+      if (number_ > kLargestLineNumber) number_ = dialect_.line_number_step;
+      text_ += fmt::format("N{} ", number_);
+    }
+    Bare(text);
   }
+  bool IsKlartext() const { return dialect_.syntax == Syntax::kKlartext; }
+  // The position to which the lines before have sent the tool by G0.
+  void StartAt(const Ticks& at) { at_ = at; }
   void Go(const RoundedMove& move) {
     std::string block;
     const auto add = [&](std::string_view word) {
       if (!block.empty()) block += ' ';
       block += word;
     };
-    if (move.rapid != rapid_) add(move.rapid ? "G0" : "G1");
-    for (std::size_t k = 0; k < 3; ++k) {
-      if (move.to[k] != at_[k]) add(kAxis[k] + FormatTicks(move.to[k], decimals_));
+    if (IsKlartext()) {
+      add("L");
+    } else if (move.rapid != rapid_) {
+      add(move.rapid ? "G0" : "G1");
     }
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (move.to[k] != at_[k]) add(kAxis[k] + PlaceText(dialect_, move.to[k]));
+    }
+    if (IsKlartext() && move.rapid) add("FMAX");
     if (!move.rapid && (rapid_ || move.feed != feed_)) {
-      add(fmt::format("F{}", FormatShort(std::max(move.feed, 1e-4), 4)));
+      std::string feed = FormatShort(std::max(move.feed, 1e-4), 4);
+      if (dialect_.feed_point && feed.find('.') == std::string::npos) feed += '.';
+      add("F" + feed);
       feed_ = move.feed;
     }
     rapid_ = move.rapid;
@@ -127,8 +148,9 @@ class BlockWriter {
   std::string Take() { return std::move(text_); }
 
  private:
-  int decimals_;
+  const Dialect& dialect_;
   std::string text_;
+  int number_ = 0;
   Ticks at_{};
   bool rapid_ = true;
   double feed_ = 0.0;
@@ -157,8 +179,12 @@ std::vector<std::string> HeaderTexts(const std::vector<RoundedMove>& moves, cons
   const auto zero = [&](int k) {
     return FormatTicks(ToTicks(params.program_zero[k], dialect.decimals), dialect.decimals);
   };
-  texts.push_back(fmt::format("zero: {}, at X{} Y{} Z{} of the placed model; work offset {}",
-                              params.zero_name, zero(0), zero(1), zero(2), params.work_offset));
+  const bool chooses = std::any_of(dialect.begin.begin(), dialect.begin.end(), [](const std::string& line) {
+    return line.find("{work_offset}") != std::string::npos;
+  });
+  texts.push_back(fmt::format(
+      "zero: {}, at X{} Y{} Z{} of the placed model; {}", params.zero_name, zero(0), zero(1), zero(2),
+      chooses ? "work offset " + params.work_offset : std::string("the program chooses no work offset")));
   std::string range = "tip of all moves below machine zero:";
   for (std::size_t k = 0; k < 3; ++k) {
     range += fmt::format(" {} {} to {}", kAxis[k], FormatTicks(low[k], dialect.decimals),
@@ -170,11 +196,24 @@ std::vector<std::string> HeaderTexts(const std::vector<RoundedMove>& moves, cons
   return texts;
 }
 
-const std::string& CoolantWord(const Dialect& dialect, Coolant coolant) {
-  static const std::string none;
+// The line that says how far the control may leave the path. The tolerance is rounded down, so that the
+// control does not get more than its share of the budget.
+std::string PathLine(const Dialect& dialect, double tolerance) {
+  if (dialect.follows_exactly) return {};
+  if (dialect.path_tolerance.empty()) return tolerance > 0.0 ? dialect.assumed_path : dialect.exact_path;
+  const auto ticks = static_cast<std::int64_t>(std::floor(tolerance * 1e4 * (1.0 + 1e-9)));
+  if (ticks <= 0 || static_cast<double>(ticks) * 1e-4 < dialect.least_tolerance) return dialect.exact_path;
+  PostValues values;
+  values.tolerance = FormatTicks(ticks, 4);
+  return *FillTemplate(dialect.path_tolerance, values);
+}
+
+}  // namespace
+
+std::string CoolantLine(const Dialect& dialect, Coolant coolant) {
   switch (coolant) {
     case Coolant::kOff:
-      return none;
+      return {};
     case Coolant::kFlood:
       return dialect.flood_on;
     case Coolant::kMist:
@@ -182,53 +221,45 @@ const std::string& CoolantWord(const Dialect& dialect, Coolant coolant) {
     case Coolant::kAir:
       return dialect.air_on;
   }
-  return none;
+  return {};
 }
-
-}  // namespace
 
 bool IsWorkOffset(std::string_view word) {
   return word.size() == 3 && word[0] == 'G' && word[1] == '5' && word[2] >= '4' && word[2] <= '9';
 }
 
-std::vector<std::string> KnownDialects() {
-  std::vector<std::string> names;
-  for (const Dialect& dialect : Dialects()) names.push_back(dialect.name);
-  return names;
-}
-
 absl::StatusOr<std::string> WriteProgram(const Toolpath& toolpath, const Tool& tool,
                                          const PostParams& params) {
   PM_RETURN_IF_ERROR(Validate(toolpath, tool, params));
-  const Dialect& dialect = *FindDialect(params.dialect);
+  const Dialect& dialect = params.dialect;
   const std::vector<RoundedMove> moves = RoundMoves(toolpath, params, dialect.decimals);
-
-  BlockWriter out(dialect.decimals);
-  for (const std::string& text : HeaderTexts(moves, tool, params, dialect)) {
-    for (const std::string& line : CommentLines(dialect, text)) out.Line(line);
-  }
-  out.Line(fmt::format(fmt::runtime(dialect.safe_start), params.work_offset));
-  // The tolerance is rounded down, so that the control does not get more than its share of the budget.
-  const auto tolerance_ticks =
-      static_cast<std::int64_t>(std::floor(params.controller_tolerance * 1e4 * (1.0 + 1e-9)));
-  out.Line(tolerance_ticks > 0
-               ? fmt::format(fmt::runtime(dialect.path_tolerance), FormatTicks(tolerance_ticks, 4))
-               : dialect.exact_path);
-  out.Line(dialect.home_z);
-  out.Line(fmt::format(fmt::runtime(dialect.tool_change), tool.number));
-  out.Line(fmt::format(fmt::runtime(dialect.spindle_on), FormatShort(tool.spindle_rpm, 1)));
-  const std::string& coolant = CoolantWord(dialect, tool.coolant);
-  if (!coolant.empty()) out.Line(coolant);
-  out.Line(fmt::format(fmt::runtime(dialect.tool_length), tool.number));
-
-  out.First(moves.front());
+  const auto place = [&](std::size_t k) { return PlaceText(dialect, moves.front().to[k]); };
+  const PostValues values{.program = fmt::format("{:04}", params.program_number),
+                          .work_offset = params.work_offset,
+                          .tool = fmt::format("{}", tool.number),
+                          .speed = FormatShort(tool.spindle_rpm, 1),
+                          .coolant = CoolantLine(dialect, tool.coolant),
+                          .path = PathLine(dialect, params.controller_tolerance),
+                          .tolerance = {},
+                          .x = place(0),
+                          .y = place(1),
+                          .z = place(2)};
+  BlockWriter out(dialect);
+  const auto write = [&](const std::vector<std::string>& lines) {
+    for (const std::string& line : lines) {
+      if (line == kHeaderLine) {
+        for (const std::string& text : HeaderTexts(moves, tool, params, dialect)) {
+          for (const std::string& comment : CommentLines(dialect, text)) out.Bare(comment);
+        }
+      } else if (const auto filled = FillTemplate(line, values)) {
+        out.Line(*filled);
+      }
+    }
+  };
+  write(dialect.begin);
+  out.StartAt(moves.front().to);
   for (std::size_t i = 1; i < moves.size(); ++i) out.Go(moves[i]);
-
-  out.Line(dialect.coolant_off);
-  out.Line(dialect.spindle_off);
-  out.Line(dialect.home_z);
-  out.Line(dialect.restore);
-  out.Line(dialect.end);
+  write(dialect.end);
   return out.Take();
 }
 

@@ -7,31 +7,35 @@
 
 #include <absl/status/statusor.h>
 
+#include "cam/post/dialect.h"
 #include "cam/tool/tool.h"
 #include "cam/toolpath/toolpath.h"
 
 namespace patchmill {
 
 struct PostParams {
-  std::string dialect = "linuxcnc";
+  Dialect dialect = LinuxCnc();
+  int program_number = 1;                  // 1..9999, where the dialect numbers its programs
   std::string work_offset = "G54";         // G54..G59
   Vec3 program_zero = Vec3::Zero();        // point of the placed model that becomes X0 Y0 Z0
   std::string zero_name = "model origin";  // for the header
-  double controller_tolerance = 0.0;       // mm, > 0, P of G64
-  double clearance_z = 0.0;                // mm, tip height of rapids, placed frame
+  // mm, >= 0: by how much the control may leave the path. The dialect's word states it. If the dialect has
+  // none, it is the user's own statement about the control. 0 means exact stop, if the control needs it.
+  double controller_tolerance = 0.0;
+  double clearance_z = 0.0;  // mm, tip height of rapids, placed frame
   std::vector<std::string>
       header;  // comment lines: assumptions, warnings, hash; WriteProgram makes them safe for the dialect
 };
 
-// Writes straight moves only. Coordinates have four decimals, no exponent and no "-0.0000"; moves that vanish
-// in rounding are dropped. The program starts and ends with G53 G0 Z0. It switches off spindle and coolant at
-// the end. Modal words are not repeated. The text is ASCII and ends with a newline. INVALID_ARGUMENT for an
-// unknown dialect (the message lists the known ones) or work offset, for tool data, moves or parameters out
-// of range, and for a toolpath without moves.
+// Writes straight moves only. Coordinates have the dialect's decimals, no exponent and no "-0.0000"; moves
+// that vanish in rounding are dropped. Before and after the moves stand the lines of the dialect. Modal words
+// are not repeated. The text is ASCII and ends with a newline. INVALID_ARGUMENT for an unknown work offset,
+// for tool data, moves or parameters out of range, and for a toolpath without moves.
 absl::StatusOr<std::string> WriteProgram(const Toolpath& toolpath, const Tool& tool,
                                          const PostParams& params);
 
-std::vector<std::string> KnownDialects();
+// The line that switches the coolant on; empty if it stays off, or if the dialect has no word for it.
+std::string CoolantLine(const Dialect& dialect, Coolant coolant);
 bool IsWorkOffset(std::string_view word);  // G54..G59
 
 }  // namespace patchmill

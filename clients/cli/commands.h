@@ -20,6 +20,7 @@ Command AddConvert(CLI::App& app);
 Command AddRegions(CLI::App& app);
 Command AddReach(CLI::App& app);
 Command AddVerify(CLI::App& app);
+Command AddPosts(CLI::App& app);
 Command AddBuild(CLI::App& app);
 Command AddEdit(CLI::App& app);
 Command AddFair(CLI::App& app);

@@ -35,6 +35,7 @@ int Main(int argc, char** argv) {
       AddRegions);
   add("reach", "how much of the surface each of several balls does not reach", AddReach);
   add("verify", "measure any program against the exact surface", AddVerify);
+  add("posts", "list the dialects of programs, or print the post file of one", AddPosts);
   add("lines", "trace contours, silhouettes, highlights and other lines of the surface", AddLines);
   add("evaluate", "points, derivatives, fundamental forms and curvatures of the surface", AddEvaluate);
   add("build", "make a first surface from sections or boundary curves", AddBuild);

@@ -11,6 +11,7 @@
 #include "clients/cli/job_options.h"
 #include "clients/cli/limit_options.h"
 #include "clients/cli/output_file.h"
+#include "clients/cli/post_options.h"
 #include "clients/cli/progress_bar.h"
 #include "clients/cli/region_options.h"
 #include "clients/cli/text.h"
@@ -28,7 +29,9 @@ struct MillOptions {
   OperationOptions operation;
   LimitOptions limits;
   RegionChangeOptions regions;
-  std::string model, program, report, preview, post = "linuxcnc", work_offset = "G54";
+  std::string model, program, report, preview, work_offset = "G54";
+  PostOptions post;
+  int program_number = 1;
 };
 
 // The part of the stream received so far. It goes to disk only after the report.
@@ -58,7 +61,13 @@ absl::StatusOr<v1::GenerateProgramRequest> MakeRequest(const MillOptions& option
       SetRegions(options.regions, operation.mutable_regions_sha256(), operation.mutable_region_overrides());
   if (!regions.ok()) return regions;
   job.set_name(WireText(std::filesystem::path(options.model).filename().string(), 100));
-  request.mutable_post()->set_dialect(WireText(options.post, 100));
+  absl::StatusOr<ChosenPost> post = ChoosePost(options.post);
+  if (!post.ok()) return post.status();
+  request.mutable_post()->set_dialect(std::move(post->dialect));
+  request.mutable_post()->set_post_file(std::move(post->post_file));
+  request.mutable_post()->set_program_number(options.program_number);
+  if (options.post.control_deviation)
+    request.mutable_post()->set_control_deviation_mm(*options.post.control_deviation);
   request.mutable_post()->set_work_offset(WireText(options.work_offset, 100));
   for (const v1::Output output : {v1::OUTPUT_PROGRESS, v1::OUTPUT_PROGRAM, v1::OUTPUT_REPORT}) {
     request.add_outputs(output);
@@ -283,7 +292,11 @@ Command AddMill(CLI::App& app) {
          "their ends; needs --allowance")
       ->needs(app.get_option("--allowance"));
   app.add_option("--work-offset", options->work_offset, "work offset, G54 to G59")->capture_default_str();
-  app.add_option("--post", options->post, "dialect of the program")->capture_default_str();
+  AddPostOptions(app, "--post", options->post);
+  app.add_option("--program-number", options->program_number,
+                 "number of the program, for dialects that number their programs")
+      ->check(CLI::Range(1, 9999))
+      ->capture_default_str();
   app.add_option("--report", options->report, "write the report here (.json)");
   app.add_option("--preview", options->preview, "write a picture here (.svg)");
   AddCommonOptions(app, options->common);

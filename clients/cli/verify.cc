@@ -8,6 +8,7 @@
 #include "clients/cli/job_options.h"
 #include "clients/cli/limit_options.h"
 #include "clients/cli/output_file.h"
+#include "clients/cli/post_options.h"
 #include "clients/cli/progress_bar.h"
 #include "clients/cli/region_options.h"
 #include "clients/cli/text.h"
@@ -27,6 +28,7 @@ struct VerifyOptions {
   double detail = 0.5;
   std::optional<double> scallop, floor, plunge_feed;
   bool no_finish = false;
+  PostOptions post;
   ShankOptions shank;
 };
 
@@ -47,6 +49,11 @@ absl::StatusOr<v1::VerifyProgramRequest> MakeRequest(const VerifyOptions& option
   if (Selects(options.limits)) *request.mutable_selection() = std::move(selection);
   if (options.limits.top) request.set_top_z_mm(*options.limits.top);
   request.set_program(*std::move(program));
+  absl::StatusOr<ChosenPost> post = ChoosePost(options.post);
+  if (!post.ok()) return post.status();
+  request.set_dialect(std::move(post->dialect));
+  request.set_post_file(std::move(post->post_file));
+  if (options.post.control_deviation) request.set_control_deviation_mm(*options.post.control_deviation);
   v1::Tool& tool = *request.add_tools();
   tool.mutable_ball_end()->set_diameter_mm(options.tool_diameter);
   SetShank(options.shank, tool);
@@ -184,6 +191,7 @@ Command AddVerify(CLI::App& app) {
   AddReadingOptions(app, options->reading);
   AddSetupOptions(app, options->setup);
   AddStockOptions(app, options->setup);
+  AddPostOptions(app, "--dialect,--post", options->post);
   app.add_option("--report", options->report, "write the report here (.json)");
   AddCommonOptions(app, options->common);
   return [options](InterruptWatch& watch) { return Run(*options, watch); };

@@ -40,19 +40,7 @@ void ReadHeights(const v1::Heights& proto, const std::string& at, Operation& op,
 }
 
 void ReadPost(const v1::Post& proto, Job& job, FieldErrors& errors) {
-  if (!proto.dialect().empty()) {
-    bool known = false;
-    std::string list;
-    for (const std::string& dialect : KnownDialects()) {
-      known = known || dialect == proto.dialect();
-      list += (list.empty() ? "" : ", ") + dialect;
-    }
-    if (!known) {
-      errors.Add("post.dialect",
-                 fmt::format("= \"{}\"; must be one of: {}", proto.dialect().substr(0, 50), list));
-    }
-    job.dialect = proto.dialect();
-  }
+  job.dialect = ReadDialect(proto.dialect(), proto.post_file(), "post.", errors);
   if (proto.arcs()) errors.NotYet("post.arcs", "programs have straight moves only");
   if (proto.unit() != v1::LENGTH_UNIT_UNSPECIFIED && proto.unit() != v1::LENGTH_UNIT_MILLIMETER) {
     errors.NotYet("post.unit", "programs are in millimetres");
@@ -64,11 +52,38 @@ void ReadPost(const v1::Post& proto, Job& job, FieldErrors& errors) {
     }
     job.work_offset = w;
   }
-  if (proto.program_number() != 0) errors.NotYet("post.program_number", "no dialect numbers its programs");
+  if (proto.program_number() != 0) {
+    Require(errors, "post.program_number", proto.program_number(),
+            proto.program_number() >= 1 && proto.program_number() <= 9999, "in [1, 9999]");
+    job.program_number = proto.program_number();
+  }
+  if (proto.has_control_deviation_mm()) {
+    job.control_deviation = ReadControlDeviation(proto.control_deviation_mm(), "post.", errors);
+  }
   if (proto.has_spindle_dwell_s()) errors.NotYet("post.spindle_dwell_s", "leave it unset");
 }
 
 }  // namespace
+
+Dialect ReadDialect(const std::string& name, const std::string& post_file, const std::string& at,
+                    FieldErrors& errors) {
+  if (!post_file.empty()) {
+    absl::StatusOr<Dialect> own = ParseDialect(post_file);
+    if (own.ok()) return *std::move(own);
+    errors.Add(at + "post_file", std::string(own.status().message()));
+    return LinuxCnc();
+  }
+  if (name.empty()) return LinuxCnc();
+  if (const Dialect* known = FindDialect(name)) return *known;
+  errors.Add(at + "dialect", fmt::format("= \"{}\"; must be one of: {}", name.substr(0, 50), DialectNames()));
+  return LinuxCnc();
+}
+
+double ReadControlDeviation(double deviation_mm, const std::string& at, FieldErrors& errors) {
+  Require(errors, at + "control_deviation_mm", deviation_mm, deviation_mm > 0.0 && deviation_mm <= 1.0,
+          "in (0, 1]");
+  return deviation_mm;
+}
 
 double ReadSteepAngle(double degrees, std::string_view at, FieldErrors& errors) {
   Require(errors, At(at, "steep_angle_deg"), degrees,
@@ -222,7 +237,11 @@ v1::Job ToProto(const Job& job, std::string_view model_digest, std::string_view 
 
 v1::Post PostToProto(const Job& job) {
   v1::Post proto;
-  proto.set_dialect(job.dialect);
+  proto.set_dialect(job.dialect.name);
+  if (FindDialect(job.dialect.name) == nullptr || FindDialect(job.dialect.name)->text != job.dialect.text)
+    proto.set_post_file(job.dialect.text);
+  proto.set_program_number(job.program_number);
+  if (job.control_deviation) proto.set_control_deviation_mm(*job.control_deviation);
   proto.set_arcs(false);
   proto.set_unit(v1::LENGTH_UNIT_MILLIMETER);
   proto.set_work_offset(job.work_offset);

@@ -15,6 +15,10 @@ Job FromProto(const v1::Job& job, const v1::Post& post, std::string_view at, Fie
 
 // Read two fields of an operation. `at` is the path of the message that has them.
 double ReadSteepAngle(double degrees, std::string_view at, FieldErrors& errors);  // rad
+// The dialect of this name, or that of the post file if there is one. `at` ends with a dot or is empty.
+Dialect ReadDialect(const std::string& name, const std::string& post_file, const std::string& at,
+                    FieldErrors& errors);
+double ReadControlDeviation(double deviation_mm, const std::string& at, FieldErrors& errors);  // mm
 double ReadDetail(double detail, std::string_view at, FieldErrors& errors);
 
 // Reads one operation. `at` is the path of the operation.

@@ -44,6 +44,9 @@ absl::Status HandleTabulateReach(const Call& call, const v1::TabulateReachReques
 absl::Status HandleGenerateProgram(const Call& call, const v1::GenerateProgramRequest& request,
                                    const Sink<v1::GenerateProgramResponse>& sink);
 
+absl::Status HandleListPosts(const Call& call, const v1::ListPostsRequest& request,
+                             v1::ListPostsResponse* response);
+
 absl::Status HandleVerifyProgram(const Call& call, const v1::VerifyProgramRequest& request,
                                  const Sink<v1::VerifyProgramResponse>& sink);
 

@@ -77,9 +77,9 @@ Job ReadJob(const v1::VerifyProgramRequest& request, FieldErrors& errors) {
   op.zigzag_angle = Radians(request.zigzag_angle_deg());
   ReadRegions(request, op, errors);
   if (request.program().empty()) errors.Missing("program");
-  if (!request.dialect().empty() && request.dialect() != "linuxcnc") {
-    errors.Add("dialect", fmt::format("= \"{}\"; must be one of: linuxcnc", request.dialect().substr(0, 50)));
-  }
+  job.dialect = ReadDialect(request.dialect(), request.post_file(), "", errors);
+  if (request.has_control_deviation_mm())
+    job.control_deviation = ReadControlDeviation(request.control_deviation_mm(), "", errors);
   job.work_offset.clear();  // a program that is only verified may use any
   return job;
 }
@@ -111,7 +111,8 @@ absl::Status Make(const Call& call, const v1::VerifyProgramRequest& request, Job
   PM_ASSIGN_OR_RETURN(LoadedModel model, LoadModel(request.source(), "source", run, &call.env->in_flight));
   PM_RETURN_IF_ERROR(RequireSound(model));
   PM_RETURN_IF_ERROR(run.Check());
-  absl::StatusOr<ProgramMotion> motion = ReadProgram(request.program(), {.run = &run});
+  absl::StatusOr<ProgramMotion> motion = ReadProgram(
+      request.program(), {.run = &run, .dialect = job.dialect, .control_deviation = job.control_deviation});
   if (!motion.ok()) {
     if (motion.status().code() != absl::StatusCode::kInvalidArgument) return motion.status();
     return ProgramUnreadableError("program: " + std::string(motion.status().message()));

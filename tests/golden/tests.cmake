@@ -1,4 +1,4 @@
-# The gate: 24 jobs through the service, their answers pinned (README.md here).
+# The gate: 27 jobs through the service, their answers pinned (README.md here).
 if(PATCHMILL_SERVICE)
   patchmill_library(tests/support/golden DEPS core/base EXTERNAL pm_proto pm_proto_json)
   patchmill_test(golden DEPS tests/support/golden EXTERNAL pm_server)

@@ -490,8 +490,9 @@ INSTANTIATE_TEST_SUITE_P(
     All, WrongUsage,
     ::testing::Values(
         Wrong{"UnknownOption", {"--no-such-option", "3"}, "--no-such-option"},
-        Wrong{
-            "UnknownPost", {"--post", "fanuc"}, "--post: post.dialect = \"fanuc\"; must be one of: linuxcnc"},
+        Wrong{"UnknownPost",
+              {"--post", "klingon"},
+              "--post: post.dialect = \"klingon\"; must be one of: fanuc, grbl,"},
         Wrong{"ToolZero",
               {"--tool-diameter", "0"},
               "--tool-diameter: job.operations[0].tool.ball_end.diameter_mm = 0"},

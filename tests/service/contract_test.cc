@@ -205,7 +205,7 @@ TEST(Contract, EveryCallListsItsErrors) {
       }
     }
   });
-  EXPECT_EQ(seen, 12);
+  EXPECT_EQ(seen, 13);
 }
 
 }  // namespace

@@ -186,8 +186,16 @@ INSTANTIATE_TEST_SUITE_P(
 
 INSTANTIATE_TEST_SUITE_P(
     Posts, WrongJobs,
-    ::testing::Values(Wrong{"Dialect", [](Request& r) { r.mutable_post()->set_dialect("heidenhain"); },
-                            "post.dialect = \"heidenhain\"; must be one of: linuxcnc"},
+    ::testing::Values(Wrong{"Dialect", [](Request& r) { r.mutable_post()->set_dialect("klingon"); },
+                            "post.dialect = \"klingon\"; must be one of: fanuc, grbl, haas, heidenhain, "
+                            "linuxcnc, mach3, siemens"},
+                      Wrong{"PostFile",
+                            [](Request& r) { r.mutable_post()->set_post_file("[control]\nname = A b\n"); },
+                            "post.post_file line 2: name: = \"A b\"; must consist of a-z, 0-9, - and _"},
+                      Wrong{"ProgramNumber", [](Request& r) { r.mutable_post()->set_program_number(10000); },
+                            "post.program_number = 10000; must be in [1, 9999]"},
+                      Wrong{"Deviation", [](Request& r) { r.mutable_post()->set_control_deviation_mm(2.0); },
+                            "post.control_deviation_mm = 2; must be in (0, 1]"},
                       Wrong{"WorkOffset", [](Request& r) { r.mutable_post()->set_work_offset("G60"); },
                             "post.work_offset = \"G60\"; must be one of G54 to G59"}),
     kName);
@@ -317,8 +325,6 @@ INSTANTIATE_TEST_SUITE_P(
                             "post.arcs is not there yet", kNext},
                       Wrong{"Inch", [](Request& r) { r.mutable_post()->set_unit(v1::LENGTH_UNIT_INCH); },
                             "post.unit is not there yet", kNext},
-                      Wrong{"ProgramNumber", [](Request& r) { r.mutable_post()->set_program_number(7); },
-                            "post.program_number is not there yet", kNext},
                       Wrong{"Dwell", [](Request& r) { r.mutable_post()->set_spindle_dwell_s(2); },
                             "post.spindle_dwell_s is not there yet", kNext}),
     kName);
@@ -394,7 +400,9 @@ Request Unusual() {
   open.mutable_at()->set_x_mm(2.5);
   open.set_one_way_lines(false);
   op.set_one_way_lines(true);
-  r.mutable_post()->set_dialect("linuxcnc");
+  r.mutable_post()->set_dialect("fanuc");
+  r.mutable_post()->set_program_number(42);
+  r.mutable_post()->set_control_deviation_mm(0.002);
   r.mutable_post()->set_arcs(false);
   r.mutable_post()->set_unit(v1::LENGTH_UNIT_MILLIMETER);
   r.mutable_post()->set_work_offset("G57");
@@ -419,6 +427,14 @@ TEST(JobRoundTrip, EveryFieldComesBack) {
   differencer.ReportDifferencesToString(&difference);
   EXPECT_TRUE(differencer.Compare(back, expected)) << difference;
   EXPECT_TRUE(google::protobuf::util::MessageDifferencer::Equals(PostToProto(job), request.post()));
+
+  v1::Post own = request.post();
+  own.set_dialect("shop");
+  own.set_post_file(FindDialect("fanuc")->text + "# ours\n");
+  own.mutable_post_file()->replace(own.post_file().find("name = fanuc"), 12, "name = shop");
+  const Job with_own = FromProto(request.job(), own, "job", errors);
+  ASSERT_TRUE(errors.empty()) << errors.ToStatus();
+  EXPECT_TRUE(google::protobuf::util::MessageDifferencer::Equals(PostToProto(with_own), own));
 }
 
 // The digest covers resolved values: a default that is stated explicitly does not change it, any other value
@@ -479,6 +495,10 @@ TEST(JobDigestTest, SeesEveryFieldAndNoDefault) {
   EXPECT_TRUE(differs([](Request& r) { HeightsOf(r).set_clearance_above_mm(9); }));
   EXPECT_TRUE(differs([](Request& r) { HeightsOf(r).set_clearance_z_mm(9); }));
   EXPECT_TRUE(differs([](Request& r) { r.mutable_post()->set_work_offset("G55"); }));
+  EXPECT_TRUE(differs([](Request& r) { r.mutable_post()->set_dialect("fanuc"); }));
+  EXPECT_TRUE(differs([](Request& r) { r.mutable_post()->set_program_number(7); }));
+  EXPECT_TRUE(differs([](Request& r) { r.mutable_post()->set_control_deviation_mm(0.001); }));
+  EXPECT_TRUE(differs([](Request& r) { r.mutable_post()->set_post_file(LinuxCnc().text + "# ours\n"); }));
   EXPECT_TRUE(differs([](Request& r) { r.mutable_job()->set_name("part"); }));
 }
 

@@ -389,7 +389,7 @@ TEST_F(VerifyProgram, WrongFields) {
               HasSubstr("scallop_mm = 4; must be in (0, ball radius = 3)"));
   EXPECT_THAT(message([](auto& r) { r.set_stock_to_leave_mm(-1); }), HasSubstr("stock_to_leave_mm = -1"));
   EXPECT_THAT(message([](auto& r) { r.set_floor_z_mm(1e9); }), HasSubstr("floor_z_mm = 1000000000"));
-  EXPECT_THAT(message([](auto& r) { r.set_dialect("fanuc"); }), HasSubstr("dialect = \"fanuc\""));
+  EXPECT_THAT(message([](auto& r) { r.set_dialect("klingon"); }), HasSubstr("dialect = \"klingon\""));
   EXPECT_THAT(message([](auto& r) { r.clear_source(); }), HasSubstr("source is missing"));
   EXPECT_THAT(
       message([](auto& r) { r.mutable_source()->mutable_model()->mutable_patches(0)->clear_shape(); }),

@@ -125,7 +125,28 @@ std::vector<BadJob> BadJobs() {
          j.setup.zero_point = {1e5, 0, -2e5};
        },
        {"setup.program_zero.z_mm", "= -200000", "in [-100000, 100000]"}},
-      {"Dialect", [](Job& j) { j.dialect = "enigma"; }, {"post.dialect", "\"enigma\"", "one of: linuxcnc"}},
+      {"CoarseDialect",
+       [](Job& j) {
+         j.dialect = *FindDialect("grbl");
+         j.operation.tolerance = 0.002;
+       },
+       {"tolerance_mm", "= 0.002", "3 decimals of the dialect grbl"}},
+      {"CoolantWithoutAWord",
+       [](Job& j) {
+         j.dialect = *FindDialect("haas");
+         j.operation.tool.coolant = Coolant::kAir;
+       },
+       {"tool.coolant", "haas", "[coolant]"}},
+      {"DeviationBesideAWord",
+       [](Job& j) { j.control_deviation = 0.001; },
+       {"post.control_deviation_mm", "= 0.001", "linuxcnc says itself"}},
+      {"DeviationOverItsShare",
+       [](Job& j) {
+         j.dialect = *FindDialect("fanuc");
+         j.operation.tolerance = 0.01;
+         j.control_deviation = 0.004;
+       },
+       {"post.control_deviation_mm", "= 0.004", "(0, 0.003]"}},
       {"WorkOffset", [](Job& j) { j.work_offset = "G60"; }, {"post.work_offset", "\"G60\"", "G54"}},
   };
 }

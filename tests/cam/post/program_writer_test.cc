@@ -164,15 +164,15 @@ TEST(ProgramWriter, OrderOfStartAndEnd) {
 
 TEST(ProgramWriter, RefusesWhatItCannotWrite) {
   PostParams params = Params();
-  params.dialect = "klingon";
+  params.program_number = 10'000;
   auto result = WriteProgram(SmallPath(), BallTool(), params);
   EXPECT_EQ(result.status().code(), absl::StatusCode::kInvalidArgument);
-  EXPECT_THAT(std::string(result.status().message()), HasSubstr("linuxcnc"));
+  EXPECT_THAT(std::string(result.status().message()), HasSubstr("program_number"));
   params = Params();
   params.work_offset = "G60";
   EXPECT_FALSE(WriteProgram(SmallPath(), BallTool(), params).ok());
   params = Params();
-  params.controller_tolerance = 0.0;
+  params.controller_tolerance = -0.001;
   EXPECT_FALSE(WriteProgram(SmallPath(), BallTool(), params).ok());
   Toolpath path = SmallPath();
   path.moves[4].to.x() = std::nan("");

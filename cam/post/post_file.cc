@@ -1,0 +1,278 @@
+// The reader of post files.
+#include <charconv>
+#include <functional>
+#include <utility>
+
+#include <absl/strings/ascii.h>
+#include <fmt/format.h>
+
+#include "cam/post/dialect.h"
+#include "cam/post/gcode_modes.h"
+#include "cam/post/post_template.h"
+#include "core/base/status.h"
+
+namespace patchmill {
+namespace {
+
+constexpr std::size_t kLongestFile = 100'000, kLongestLine = 200;  // characters
+
+absl::Status Bad(const std::string& message) { return absl::InvalidArgumentError(message); }
+
+std::string_view Trimmed(std::string_view text) {
+  while (!text.empty() && absl::ascii_isspace(static_cast<unsigned char>(text.front())))
+    text.remove_prefix(1);
+  while (!text.empty() && absl::ascii_isspace(static_cast<unsigned char>(text.back()))) text.remove_suffix(1);
+  return text;
+}
+
+std::string Quoted(std::string_view text) { return fmt::format("\"{}\"", text.substr(0, 60)); }
+
+absl::Status ReadNumber(std::string_view value, double least, double most, double& out) {
+  double number = 0.0;
+  const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), number);
+  if (error != std::errc() || end != value.data() + value.size() || !(number >= least && number <= most))
+    return Bad(fmt::format("= {}; must be a number from {:g} to {:g}", Quoted(value), least, most));
+  out = number;
+  return absl::OkStatus();
+}
+
+template <class Integer>
+absl::Status ReadInteger(std::string_view value, int least, int most, Integer& out) {
+  double number = 0.0;
+  PM_RETURN_IF_ERROR(ReadNumber(value, least, most, number));
+  out = static_cast<Integer>(number);
+  if (static_cast<double>(out) != number)
+    return Bad(fmt::format("= {}; must be a whole number", Quoted(value)));
+  return absl::OkStatus();
+}
+
+// One of two words.
+absl::Status ReadChoice(std::string_view value, std::string_view no, std::string_view yes, bool& out) {
+  if (value != no && value != yes) return Bad(fmt::format("= {}; must be {} or {}", Quoted(value), no, yes));
+  out = value == yes;
+  return absl::OkStatus();
+}
+
+absl::Status ReadText(std::string_view value, std::string& out) {
+  out = value;
+  return absl::OkStatus();
+}
+
+// Two marks with a space between, or one that runs to the end of the line.
+absl::Status ReadComment(std::string_view value, Dialect& out) {
+  const std::size_t gap = value.find(' ');
+  out.comment_open = value.substr(0, gap);
+  out.comment_close = gap == std::string_view::npos ? "" : Trimmed(value.substr(gap));
+  if ((out.comment_open == "(" && out.comment_close == ")") ||
+      (out.comment_open == ";" && out.comment_close.empty()))
+    return absl::OkStatus();
+  return Bad(fmt::format("= {}; must be \"( )\" or \";\"", Quoted(value)));
+}
+
+absl::Status ReadName(std::string_view value, std::string& out) {
+  for (const char c : value) {
+    if (!absl::ascii_islower(static_cast<unsigned char>(c)) &&
+        !absl::ascii_isdigit(static_cast<unsigned char>(c)) && c != '-' && c != '_')
+      return Bad(fmt::format("= {}; must consist of a-z, 0-9, - and _", Quoted(value)));
+  }
+  if (value.size() > 40) return Bad("must have at most 40 characters");
+  return ReadText(value, out);
+}
+
+absl::Status ReadSyntax(std::string_view value, Syntax& out) {
+  constexpr std::pair<std::string_view, Syntax> kKnown[] = {
+      {"rs274", Syntax::kRs274}, {"siemens", Syntax::kSiemens}, {"klartext", Syntax::kKlartext}};
+  for (const auto& [name, syntax] : kKnown) {
+    if (name != value) continue;
+    out = syntax;
+    return absl::OkStatus();
+  }
+  return Bad(fmt::format("= {}; must be rs274, siemens or klartext", Quoted(value)));
+}
+
+absl::Status ReadPathTemplate(std::string_view value, bool with_tolerance, std::string& out) {
+  PM_RETURN_IF_ERROR(CheckTemplate(value));
+  const bool has = value.find("{tolerance}") != std::string_view::npos;
+  if (has != with_tolerance || value.find('{') != value.rfind('{'))
+    return Bad(with_tolerance ? "must hold {tolerance} and no other placeholder"
+                              : "must hold no placeholder");
+  return ReadText(value, out);
+}
+
+using Reader = std::function<absl::Status(std::string_view, Dialect&)>;
+
+// All keys by "section.key".
+const std::map<std::string, Reader, std::less<>>& Keys() {
+  using View = std::string_view;
+  static const auto* const keys = new std::map<std::string, Reader, std::less<>>{
+      {"control.name", [](View v, Dialect& d) { return ReadName(v, d.name); }},
+      {"control.title", [](View v, Dialect& d) { return ReadText(v, d.title); }},
+      {"control.syntax", [](View v, Dialect& d) { return ReadSyntax(v, d.syntax); }},
+      {"control.decimals", [](View v, Dialect& d) { return ReadInteger(v, 2, 6, d.decimals); }},
+      {"control.comment", [](View v, Dialect& d) { return ReadComment(v, d); }},
+      {"control.comment_length",
+       [](View v, Dialect& d) { return ReadInteger(v, 20, 250, d.max_comment_length); }},
+      {"control.upper_case", [](View v, Dialect& d) { return ReadChoice(v, "no", "yes", d.upper_case); }},
+      {"control.feed_point", [](View v, Dialect& d) { return ReadChoice(v, "no", "yes", d.feed_point); }},
+      {"control.feed_unit",
+       [](View v, Dialect& d) { return ReadChoice(v, "before", "new", d.feed_in_new_unit); }},
+      {"control.line_numbers",
+       [](View v, Dialect& d) { return ReadInteger(v, 0, 1000, d.line_number_step); }},
+      {"control.line_end",
+       [](View v, Dialect& d) {
+         bool crlf = false;
+         PM_RETURN_IF_ERROR(ReadChoice(v, "lf", "crlf", crlf));
+         d.line_end = crlf ? "\r\n" : "\n";
+         return absl::OkStatus();
+       }},
+      {"path.follows",
+       [](View v, Dialect& d) { return ReadChoice(v, "tolerance", "exactly", d.follows_exactly); }},
+      {"path.tolerance", [](View v, Dialect& d) { return ReadPathTemplate(v, true, d.path_tolerance); }},
+      {"path.tolerance_least", [](View v, Dialect& d) { return ReadNumber(v, 0.0, 1.0, d.least_tolerance); }},
+      {"path.exact", [](View v, Dialect& d) { return ReadPathTemplate(v, false, d.exact_path); }},
+      {"path.assumed", [](View v, Dialect& d) { return ReadPathTemplate(v, false, d.assumed_path); }},
+      {"coolant.flood", [](View v, Dialect& d) { return ReadPathTemplate(v, false, d.flood_on); }},
+      {"coolant.mist", [](View v, Dialect& d) { return ReadPathTemplate(v, false, d.mist_on); }},
+      {"coolant.air", [](View v, Dialect& d) { return ReadPathTemplate(v, false, d.air_on); }},
+  };
+  return *keys;
+}
+
+std::string KeysOf(std::string_view section) {
+  std::string list;
+  for (const auto& [key, reader] : Keys()) {
+    if (key.compare(0, section.size(), section) == 0 && key[section.size()] == '.')
+      list += (list.empty() ? "" : ", ") + key.substr(section.size() + 1);
+  }
+  return list;
+}
+
+// "G05.1" as "G5.1". INVALID_ARGUMENT for anything but a G or M word, and for a word that the reader of
+// programs knows by itself: its meaning must not be taken away.
+absl::StatusOr<std::string> ReadSpelling(std::string_view spelling) {
+  double number = 0.0;
+  const char* end = spelling.data() + spelling.size();
+  const bool code = spelling.size() >= 2 && spelling.size() <= 8 &&
+                    (spelling[0] == 'G' || spelling[0] == 'M') &&
+                    spelling.find_first_not_of("0123456789.", 1) == std::string_view::npos &&
+                    std::from_chars(spelling.data() + 1, end, number, std::chars_format::fixed).ptr == end;
+  if (!code) return Bad(fmt::format("{} is not a G or M word", Quoted(spelling)));
+  if (SortModes({.words = {{spelling[0], number}}}, Dialect()).ok())
+    return Bad(fmt::format("{} has a meaning of its own, which cannot be changed", spelling));
+  return fmt::format("{}{:.10g}", spelling[0], number);
+}
+
+// "G187 = tolerance E" or "M83 = none".
+absl::Status ReadWord(std::string_view given, std::string_view meaning, Dialect& out) {
+  PM_ASSIGN_OR_RETURN(const std::string spelling, ReadSpelling(given));
+  DialectWord word;
+  if (meaning.size() == 11 && meaning.substr(0, 10) == "tolerance " &&
+      absl::ascii_isupper(static_cast<unsigned char>(meaning[10]))) {
+    word.tolerance_letter = meaning[10];
+  } else if (meaning != "none") {
+    return Bad(
+        fmt::format("{} = {}; must be \"none\" or \"tolerance\" and a letter", spelling, Quoted(meaning)));
+  }
+  if (!out.words.emplace(spelling, word).second) return Bad(fmt::format("{} is given twice", spelling));
+  return absl::OkStatus();
+}
+
+// Reads the lines one after the other.
+class PostFileReader {
+ public:
+  absl::Status Line(std::string_view line) {
+    const std::string_view text = Trimmed(line);
+    if (text.empty() || text.front() == '#') return absl::OkStatus();
+    for (const char c : text) {
+      if (c < 0x20 || c > 0x7e) return Bad("only printable ASCII is allowed");
+    }
+    if (text.size() > kLongestLine) return Bad(fmt::format("longer than {} characters", kLongestLine));
+    if (text.front() == '[') return Section(text);
+    if (section_.empty()) return Bad("text before the first section, [control]");
+    if (section_ == "begin" || section_ == "end") return Template(text);
+    const std::size_t equals = text.find('=');
+    if (equals == std::string_view::npos) return Bad("must be \"key = value\"");
+    const std::string_view key = Trimmed(text.substr(0, equals)), value = Trimmed(text.substr(equals + 1));
+    if (section_ == "words") return ReadWord(key, value, dialect_);
+    return Key(key, value);
+  }
+
+  absl::StatusOr<Dialect> Take(std::string_view text) {
+    if (dialect_.name.empty()) return Bad("[control] name is missing");
+    if (dialect_.comment_open.empty()) return Bad("[control] comment is missing");
+    if (dialect_.max_comment_length == 0) return Bad("[control] comment_length is missing");
+    if (dialect_.begin.empty()) return Bad("[begin] is missing");
+    if (dialect_.end.empty()) return Bad("[end] is missing");
+    for (const char axis : {'x', 'y', 'z'}) {
+      if (!Begins(fmt::format("{{{}}}", axis)))
+        return Bad(fmt::format("[begin] nowhere sends the tool to {{{}}}", axis));
+    }
+    if (!dialect_.follows_exactly) {
+      if (dialect_.exact_path.empty()) return Bad("[path] exact is missing, and it does not follow exactly");
+      if (!Begins("{path}")) return Bad("[begin] nowhere has {path}, which the accuracy rests on");
+    }
+    if (dialect_.title.empty()) dialect_.title = dialect_.name;
+    dialect_.text = text;
+    return std::move(dialect_);
+  }
+
+ private:
+  bool Begins(std::string_view placeholder) const {
+    for (const std::string& line : dialect_.begin) {
+      if (line.find(placeholder) != std::string::npos) return true;
+    }
+    return false;
+  }
+
+  absl::Status Section(std::string_view text) {
+    for (const char* name : {"control", "path", "coolant", "words", "begin", "end"}) {
+      if (text == fmt::format("[{}]", name)) {
+        section_ = name;
+        return absl::OkStatus();
+      }
+    }
+    return Bad(
+        fmt::format("{}: must be [control], [path], [coolant], [words], [begin] or [end]", Quoted(text)));
+  }
+
+  absl::Status Template(std::string_view text) {
+    PM_RETURN_IF_ERROR(CheckTemplate(text));
+    (section_ == "begin" ? dialect_.begin : dialect_.end).emplace_back(text);
+    return absl::OkStatus();
+  }
+
+  absl::Status Key(std::string_view key, std::string_view value) {
+    const std::string full = fmt::format("{}.{}", section_, key);
+    const auto known = Keys().find(full);
+    if (known == Keys().end()) {
+      return Bad(fmt::format("[{}] has no key {}; it has {}", section_, Quoted(key), KeysOf(section_)));
+    }
+    if (!seen_.insert({full, true}).second) return Bad(fmt::format("{} is given twice", key));
+    if (value.empty()) return Bad(fmt::format("{} has no value", key));
+    const absl::Status read = known->second(value, dialect_);
+    if (read.ok()) return read;
+    return Bad(fmt::format("{}: {}", key, std::string(read.message())));
+  }
+
+  Dialect dialect_;
+  std::string section_;
+  std::map<std::string, bool> seen_;
+};
+
+}  // namespace
+
+absl::StatusOr<Dialect> ParseDialect(std::string_view text) {
+  if (text.size() > kLongestFile) return Bad(fmt::format("longer than {} characters", kLongestFile));
+  PostFileReader reader;
+  int line = 0;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    ++line;
+    const absl::Status read = reader.Line(text.substr(begin, end - begin));
+    if (!read.ok()) return Bad(fmt::format("line {}: {}", line, std::string(read.message())));
+    begin = end + 1;
+  }
+  return reader.Take(text);
+}
+
+}  // namespace patchmill

@@ -1,0 +1,33 @@
+// Lines of a post file with placeholders: which there are, and what they stand for.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include <absl/status/status.h>
+
+namespace patchmill {
+
+// What placeholders may stand for. A value that is empty leaves the line out.
+struct PostValues {
+  std::string program;      // number, four digits
+  std::string work_offset;  // "G54"
+  std::string tool;         // number
+  std::string speed;        // 1/min
+  std::string coolant, path, tolerance;
+  std::string x, y, z;  // mm, first position of the tip
+};
+
+// {header} stands alone on its line, for the comments.
+inline constexpr std::string_view kHeaderLine = "{header}";
+
+// INVALID_ARGUMENT, without the line number, for a placeholder that does not exist, for one without its
+// closing brace, and for {header} beside other text.
+absl::Status CheckTemplate(std::string_view line);
+
+// The line with its values; absent if one of them is empty. The line has passed CheckTemplate.
+std::optional<std::string> FillTemplate(std::string_view line, const PostValues& values);
+
+}  // namespace patchmill

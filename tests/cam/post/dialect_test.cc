@@ -1,0 +1,347 @@
+// The dialects that Patchmill brings along, and post files of one's own.
+#include "cam/post/dialect.h"
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "cam/post/program_reader.h"
+#include "cam/post/program_writer.h"
+#include "tests/support/random.h"
+
+namespace patchmill {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+using testing::Random;
+namespace fs = std::filesystem;
+
+constexpr double kRadius = 3.0;
+
+Tool BallTool() {
+  Tool tool;
+  tool.number = 3;
+  tool.name = "ball (carbide)";
+  tool.cutter = BallEnd{kRadius};
+  tool.spindle_rpm = 12000;
+  tool.feed = 1200;
+  tool.plunge_feed = 400;
+  tool.coolant = Coolant::kFlood;
+  return tool;
+}
+
+PostParams ParamsFor(const Dialect& dialect) {
+  PostParams params;
+  params.dialect = dialect;
+  params.program_number = 42;
+  params.controller_tolerance = dialect.path_tolerance.empty() ? 0.0 : 0.003;
+  params.clearance_z = 20.0;
+  params.header = {"Patchmill test", "model: two (planes)"};
+  return params;
+}
+
+// A random walk of cuts with retracts. No move vanishes in rounding.
+Toolpath RandomPath(std::uint64_t seed) {
+  Random random(seed);
+  Toolpath path;
+  path.ball_radius = kRadius;
+  const auto go = [&](MoveKind kind, double x, double y, double z, double feed) {
+    Move move;
+    move.kind = kind;
+    move.to = Vec3(x, y, z + kRadius);
+    move.feed = feed;
+    path.moves.push_back(move);
+  };
+  for (int pass = 0; pass < 4; ++pass) {
+    double x = random.Uniform(-50, 50), y = random.Uniform(-50, 50), z = random.Uniform(-9, 9);
+    go(MoveKind::kRapid, x, y, 20.0, 0.0);
+    go(MoveKind::kPlunge, x, y, z, 400.0);
+    for (int k = 0; k < 20; ++k) {
+      x += random.Uniform(0.1, 2.0);
+      y += random.Uniform(-2.0, 2.0);
+      z += random.Uniform(-0.3, 0.3);
+      go(MoveKind::kCut, x, y, z, k % 7 == 3 ? 777.5 : 1200.0);
+    }
+    go(MoveKind::kRapid, x, y, 20.0, 0.0);
+  }
+  return path;
+}
+
+class EveryDialect : public ::testing::TestWithParam<std::string> {
+ protected:
+  const Dialect& dialect() const { return *FindDialect(GetParam()); }
+};
+
+TEST_P(EveryDialect, IsReadBackAsTheSameMotion) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const Toolpath path = RandomPath(seed);
+    const auto program = WriteProgram(path, BallTool(), ParamsFor(dialect()));
+    ASSERT_TRUE(program.ok()) << program.status();
+    const auto motion = ReadProgram(*program, {.dialect = dialect()});
+    ASSERT_TRUE(motion.ok()) << motion.status() << "\n" << *program;
+    // GRBL has no tool table: the tool's length is set by hand.
+    ASSERT_EQ(motion->assumptions.size(), GetParam() == "grbl" ? 1u : 0u)
+        << motion->assumptions.front().message;
+    if (GetParam() == "grbl") {
+      EXPECT_EQ(motion->assumptions.front().code, "LENGTH_OFFSET_ASSUMED");
+    }
+    EXPECT_TRUE(motion->first_motion_is_up);
+    EXPECT_TRUE(motion->last_motion_is_up);
+    EXPECT_TRUE(motion->ends_with_spindle_off);
+    EXPECT_TRUE(motion->ends_with_coolant_off);
+    EXPECT_DOUBLE_EQ(motion->controller_tolerance, dialect().path_tolerance.empty() ? 0.0 : 0.003);
+    std::vector<const ProgramMove*> below;
+    for (const ProgramMove& move : motion->moves) {
+      if (!move.to_above && !move.from_above) below.push_back(&move);
+    }
+    ASSERT_EQ(below.size(), path.moves.size() - 1);
+    const double half = 0.5000001 * std::pow(10.0, -dialect().decimals);
+    for (std::size_t i = 0; i < below.size(); ++i) {
+      const Move& sent = path.moves[i + 1];
+      const Vec3 tip = sent.to - Vec3(0, 0, kRadius);
+      EXPECT_LE((below[i]->to - tip).cwiseAbs().maxCoeff(), half);
+      EXPECT_EQ(below[i]->kind == ProgramMove::Kind::kRapid, sent.kind == MoveKind::kRapid);
+      if (sent.kind != MoveKind::kRapid) {
+        EXPECT_EQ(below[i]->feed, sent.feed);
+        EXPECT_TRUE(below[i]->spindle_on);
+      }
+    }
+  }
+}
+
+// Rewritten only by PATCHMILL_UPDATE_GOLDEN=1; read the difference before committing it.
+TEST_P(EveryDialect, HasTheseBytes) {
+  Toolpath path = RandomPath(5);
+  path.moves.resize(12);
+  const auto program = WriteProgram(path, BallTool(), ParamsFor(dialect()));
+  ASSERT_TRUE(program.ok()) << program.status();
+  const fs::path file = fs::path(PATCHMILL_SOURCE_DIR) / "tests/golden/posts" / (GetParam() + ".ngc");
+  if (std::getenv("PATCHMILL_UPDATE_GOLDEN") != nullptr) std::ofstream(file, std::ios::binary) << *program;
+  std::ostringstream golden;
+  golden << std::ifstream(file, std::ios::binary).rdbuf();
+  EXPECT_EQ(*program, golden.str());
+}
+
+TEST_P(EveryDialect, LinesAreShortAndAscii) {
+  const auto program = WriteProgram(RandomPath(2), BallTool(), ParamsFor(dialect()));
+  ASSERT_TRUE(program.ok());
+  std::istringstream lines(*program);
+  for (std::string line; std::getline(lines, line);) {
+    EXPECT_LE(line.size(), dialect().max_comment_length) << line;
+    EXPECT_FALSE(line.empty());
+    for (const char c : line) EXPECT_TRUE(c >= ' ' && c <= '~') << line;
+  }
+  EXPECT_THAT(*program, Not(HasSubstr("{")));
+}
+
+TEST_P(EveryDialect, PostFileMakesTheSameDialect) {
+  const auto again = ParseDialect(dialect().text);
+  ASSERT_TRUE(again.ok()) << again.status();
+  const Toolpath path = RandomPath(3);
+  EXPECT_EQ(*WriteProgram(path, BallTool(), ParamsFor(*again)),
+            *WriteProgram(path, BallTool(), ParamsFor(dialect())));
+}
+
+// Each line of an own post file that is damaged gives an error with its line, or another dialect; never a
+// crash.
+TEST_P(EveryDialect, DamagedPostFilesAreNamed) {
+  Random random(9);
+  const std::string& text = dialect().text;
+  for (int k = 0; k < 400; ++k) {
+    std::string damaged = text;
+    const auto at = static_cast<std::size_t>(random.Int(static_cast<int>(text.size())));
+    if (k % 3 == 0) damaged.erase(at, 1 + static_cast<std::size_t>(random.Int(20)));
+    if (k % 3 == 1) damaged[at] = static_cast<char>(random.Int(256));
+    if (k % 3 == 2) damaged.insert(at, 1, "{}=[]#\n"[random.Int(7)]);
+    const auto read = ParseDialect(damaged);
+    if (read.ok()) {
+      (void)WriteProgram(RandomPath(1), BallTool(), ParamsFor(*read));
+    } else {
+      EXPECT_THAT(std::string(read.status().message()), ::testing::ContainsRegex("^(line [0-9]+: |\\[)"));
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Posts, EveryDialect,
+                         ::testing::Values("fanuc", "grbl", "haas", "heidenhain", "linuxcnc", "mach3",
+                                           "siemens"),
+                         [](const auto& of) { return of.param; });
+
+TEST(Dialects, AreAllTested) {
+  EXPECT_EQ(DialectNames(), "fanuc, grbl, haas, heidenhain, linuxcnc, mach3, siemens");
+}
+
+constexpr const char* kShop = R"(# Our mill.
+[control]
+name = shop
+decimals = 3
+comment = ;
+comment_length = 80
+line_numbers = 10
+line_end = crlf
+feed_point = yes
+[path]
+follows = exactly
+[coolant]
+flood = M50
+[words]
+M50 = none
+M51 = none
+[begin]
+{header}
+G17 G21 G90 G94 G40 G49 G80 {work_offset}
+G53 G0 Z0
+T{tool} M6
+{coolant}
+S{speed} M3
+G43 H{tool}
+G0 X{x} Y{y}
+Z{z}
+[end]
+M9
+M51
+M5
+G53 G0 Z0
+M30
+)";
+
+TEST(OwnPostFile, IsWhatTheFileSays) {
+  const auto shop = ParseDialect(kShop);
+  ASSERT_TRUE(shop.ok()) << shop.status();
+  Toolpath path = RandomPath(4);
+  path.moves.resize(3);
+  const auto program = WriteProgram(path, BallTool(), ParamsFor(*shop));
+  ASSERT_TRUE(program.ok());
+  EXPECT_THAT(*program, HasSubstr(";Patchmill test\r\n"));
+  EXPECT_THAT(*program,
+              HasSubstr("N10 G17 G21 G90 G94 G40 G49 G80 G54\r\nN20 G53 G0 Z0\r\nN30 T3 M6\r\nN40 M50\r\n"));
+  EXPECT_THAT(*program, HasSubstr(" F400.\r\n"));
+  const auto motion = ReadProgram(*program, {.dialect = *shop});
+  ASSERT_TRUE(motion.ok()) << motion.status();
+  EXPECT_EQ(motion->controller_tolerance, 0.0);
+}
+
+// N words have at most five digits.
+TEST(OwnPostFile, LineNumbersBeginAgain) {
+  std::string text = kShop;
+  text.replace(text.find("line_numbers = 10"), 17, "line_numbers = 1000");
+  Toolpath path = RandomPath(1);
+  while (path.moves.size() < 400)
+    path.moves.insert(path.moves.end(), path.moves.begin(), path.moves.begin() + 80);
+  const auto program = WriteProgram(path, BallTool(), ParamsFor(*ParseDialect(text)));
+  ASSERT_TRUE(program.ok());
+  EXPECT_THAT(*program, HasSubstr("\r\nN99000 "));
+  EXPECT_THAT(*program, Not(HasSubstr("\r\nN100000 ")));
+}
+
+TEST(OwnPostFile, FaultsHaveTheirLine) {
+  const auto with = [](const std::string& from, const std::string& to) {
+    std::string text = kShop;
+    text.replace(text.find(from), from.size(), to);
+    return std::string(ParseDialect(text).status().message());
+  };
+  EXPECT_EQ(with("decimals = 3", "decimals = 9"), "line 4: decimals: = \"9\"; must be a number from 2 to 6");
+  EXPECT_EQ(with("decimals = 3", "decimals = 3.5"), "line 4: decimals: = \"3.5\"; must be a whole number");
+  EXPECT_THAT(with("decimals", "decimal"),
+              HasSubstr("line 4: [control] has no key \"decimal\"; it has comment"));
+  EXPECT_THAT(with("T{tool}", "T{tol}"),
+              HasSubstr("line 21: {tol} is not a placeholder; there are {header}"));
+  EXPECT_EQ(with("T{tool}", "T{tool"), "line 21: a brace without its other one");
+  EXPECT_EQ(with("{header}", "({header})"), "line 18: {header} must stand alone on its line");
+  EXPECT_THAT(with("[end]", "[ende]"), HasSubstr("line 27: \"[ende]\": must be [control]"));
+  EXPECT_EQ(with("follows = exactly", "exact = G61"),
+            "[begin] nowhere has {path}, which the accuracy rests on");
+  EXPECT_EQ(with("name = shop", ""), "[control] name is missing");
+  EXPECT_EQ(with("Z{z}", "Z5"), "[begin] nowhere sends the tool to {z}");
+  EXPECT_EQ(with("M51 = none", "M50 = none"), "line 16: M50 is given twice");
+  EXPECT_EQ(with("M51 = none", "M51 = wait"),
+            "line 16: M51 = \"wait\"; must be \"none\" or \"tolerance\" and a letter");
+  EXPECT_EQ(with("M51 = none", "G91 = none"),
+            "line 16: G91 has a meaning of its own, which cannot be changed");
+  EXPECT_EQ(with("M51 = none", "M030 = none"),
+            "line 16: M030 has a meaning of its own, which cannot be changed");
+  EXPECT_EQ(with("M51 = none", "G1.2.3 = none"), "line 16: \"G1.2.3\" is not a G or M word");
+  EXPECT_EQ(with("M51 = none", "M050 = none"), "line 16: M50 is given twice");
+  EXPECT_EQ(with("# Our mill.", "our mill"), "line 1: text before the first section, [control]");
+  EXPECT_EQ(with("comment = ;", "comment = !"), "line 5: comment: = \"!\"; must be \"( )\" or \";\"");
+}
+
+TEST(ControlDeviation, IsTheUsersStatement) {
+  for (const char* name : {"fanuc", "mach3"}) {
+    PostParams params = ParamsFor(*FindDialect(name));
+    params.controller_tolerance = 0.002;
+    const auto program = WriteProgram(RandomPath(6), BallTool(), params);
+    ASSERT_TRUE(program.ok());
+    EXPECT_THAT(*program, HasSubstr("\nG64\n"));
+    const auto stated = ReadProgram(*program, {.dialect = params.dialect, .control_deviation = 0.002});
+    ASSERT_TRUE(stated.ok()) << stated.status();
+    EXPECT_EQ(stated->controller_tolerance, 0.002);
+    ASSERT_EQ(stated->assumptions.size(), 1u);
+    EXPECT_EQ(stated->assumptions.front().code, "CONTROL_DEVIATION_ASSUMED");
+    const auto open = ReadProgram(*program, {.dialect = params.dialect});
+    ASSERT_TRUE(open.ok());
+    EXPECT_EQ(open->controller_tolerance, kInfinity);
+  }
+}
+
+// What each dialect's words mean to the reader.
+TEST(DialectReader, FeedsAndTolerancesFollowTheControl) {
+  const std::string start = "G90 G94 G17 G40 G49 G80 G21\nG53 G0 Z0\nG61\nS100 M3\nG43 H1\nG0 X0 Y0\nZ5\n";
+  const std::string feed = start + "G20 G1 X1 F2\n";
+  const auto feed_in = [&](const char* name) {
+    return ReadProgram(feed, {.dialect = *FindDialect(name)})->moves.back().feed;
+  };
+  EXPECT_DOUBLE_EQ(feed_in("linuxcnc"), 2.0);  // mm: the unit before the line
+  EXPECT_DOUBLE_EQ(feed_in("grbl"), 50.8);     // inches: the unit of the line
+  const auto tolerance = [&](const char* name, const std::string& words) {
+    const auto motion = ReadProgram(start + words + "\nG1 X5 F100\n", {.dialect = *FindDialect(name)});
+    EXPECT_TRUE(motion.ok()) << motion.status();
+    return motion.ok() ? motion->controller_tolerance : -1.0;
+  };
+  EXPECT_EQ(tolerance("grbl", "G64"), 0.0);
+  EXPECT_EQ(tolerance("haas", "G64\nG187 P2 E0.02"), 0.02);
+  EXPECT_EQ(tolerance("haas", "G64\nG187"), kInfinity);
+  EXPECT_EQ(tolerance("haas", "G187 E0.02"), 0.0);  // exact stop holds on
+  EXPECT_EQ(tolerance("fanuc", "G5.1 Q1"), 0.0);
+  EXPECT_EQ(tolerance("fanuc", "G64"), kInfinity);
+  EXPECT_FALSE(ReadProgram("G187 E0.1\n").ok());
+  EXPECT_FALSE(ReadProgram("G5.1 Q1 X3\n", {.dialect = *FindDialect("fanuc")}).ok());
+}
+
+TEST(DialectReader, ReferenceReturnsGoThroughTheirPlaceFirst) {
+  const std::string start = "G21 G90 G94 G17 G61\nG0 X0 Y0 Z5\n";
+  const auto up = ReadProgram(start + "G91 G28 Z0\nG90\n");
+  ASSERT_TRUE(up.ok()) << up.status();
+  EXPECT_EQ(up->moves.size(), 2u);
+  EXPECT_TRUE(up->moves.back().to_above);
+  EXPECT_EQ(up->moves.back().from.z(), 5.0);
+  const auto down = ReadProgram(start + "G28 Z0\n");
+  ASSERT_TRUE(down.ok()) << down.status();
+  ASSERT_EQ(down->moves.size(), 3u);
+  EXPECT_EQ(down->moves[1].kind, ProgramMove::Kind::kRapid);
+  EXPECT_EQ(down->moves[1].to, Vec3(0, 0, 0));  // through the part, if it is there
+  EXPECT_TRUE(down->moves[2].to_above);
+  EXPECT_TRUE(ReadProgram("G91 G28 Z0\nG90\n").ok());
+  EXPECT_TRUE(ReadProgram("G91 G28 Z0\nG28 X0 Y0\nG90\n").ok());
+  EXPECT_FALSE(ReadProgram(start + "G91 G28 X0 Y0 Z0\n").ok());
+  EXPECT_FALSE(ReadProgram(start + "G28\n").ok());
+}
+
+TEST(DialectReader, ProgramNumbersStandAtTheStart) {
+  EXPECT_TRUE(ReadProgram("%\nO0042\nG21 G90\n%\n").ok());
+  EXPECT_TRUE(ReadProgram("O42 (bracket)\nG21 G90\n").ok());
+  EXPECT_FALSE(ReadProgram("G21 G90\nO0042\n").ok());
+  EXPECT_FALSE(ReadProgram("%\nO1\nO2\n%\n").ok());
+  EXPECT_FALSE(ReadProgram("O1 G21\n").ok());
+}
+
+}  // namespace
+}  // namespace patchmill
