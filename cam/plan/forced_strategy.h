@@ -16,9 +16,8 @@ std::function<double(const SurfaceJet&)> FinishedByForced(const Operation& op, d
 
 // The same map, but for two figures of the regions with the reason kStrategy. A region that is cut otherwise
 // than the operation says, or in a direction that is still open, has no reason. The others have their
-// deepest_leftover: at up to 20,000 places of each, and closely around the deepest of them, what the least
-// step leaves (LeftByStep), or the distance to a ball that touches finished surface if that is less. This is
-// an estimate: passes may come nearer.
+// deepest_leftover: at up to 500 places of each, what the least step leaves (LeftByStep), or the distance to
+// a ball that touches finished surface if that is less. This is an estimate: passes may come nearer.
 // CANCELLED, DEADLINE_EXCEEDED from the run.
 absl::StatusOr<RegionMap> MarkUnfinishedByStrategy(const JobContext& context, RegionMap map,
                                                    const RegionChoices& chosen);

@@ -45,7 +45,6 @@ inline int StrideOf(const RegionMap& map) {
 struct RegionPoint {
   RegionId region;
   std::size_t cell = 0;  // of the map, in its piece
-  double u = 0.0, v = 0.0;
   SurfaceJet jet;
   Vec3 normal = Vec3::UnitZ();  // unit, upward
 };
@@ -79,9 +78,8 @@ class RegionPoints {
         const auto cell = static_cast<std::size_t>(i * n + j);
         const RegionId id = map_.labels[piece][cell];
         if (id == kNoRegion || !wanted(id)) continue;
-        const double u = (i + 0.5) / n, v = (j + 0.5) / n;
-        const SurfaceJet jet = Evaluate(surface_.pieces[piece], u, v);
-        if (const auto e = UpwardNormal(jet)) visit(RegionPoint{id, cell, u, v, jet, *e});
+        const SurfaceJet jet = Evaluate(surface_.pieces[piece], (i + 0.5) / n, (j + 0.5) / n);
+        if (const auto e = UpwardNormal(jet)) visit(RegionPoint{id, cell, jet, *e});
       }
     }
   }
