@@ -8,7 +8,7 @@
 namespace patchmill {
 namespace {
 
-constexpr std::size_t kLongestRun = 4096;  // moves that become one
+constexpr std::size_t kLongestRun = 1 << 16;  // moves that become one
 
 bool MayJoin(const Move& a, const Move& b) {
   return a.kind != MoveKind::kRapid && a.kind == b.kind && a.feed == b.feed && a.pass == b.pass &&
@@ -28,27 +28,44 @@ class Run {
   std::vector<std::size_t> Kept() const {
     std::vector<std::size_t> kept = {0};
     const std::size_t last = places_.size() - 1;
-    while (kept.back() < last) {
-      const std::size_t from = kept.back();
-      std::size_t to = from + 1;
-      while (to < last && to - from < kLongestRun && IsStraight(from, to + 1, kStraight)) ++to;
-      kept.push_back(to);
-    }
-    for (bool again = true; again;) {
-      again = false;
-      for (std::size_t k = 1; k + 1 < kept.size(); ++k) {
-        const std::size_t from = kept[k - 1], to = kept[k + 1];
-        if (to - from > kLongestRun || !(Distance(kept[k], from, to) < kStraight)) continue;
-        if (!IsStraight(from, to, 2.0 * kStraight)) continue;
-        kept.erase(kept.begin() + static_cast<std::ptrdiff_t>(k));
-        again = true;
-      }
+    while (kept.back() < last) kept.push_back(Farthest(kept.back()));
+    for (std::size_t before = kept.size() + 1; kept.size() < before;) {
+      before = kept.size();
+      kept = WithoutSpare(kept);
     }
     kept.erase(kept.begin());
     return kept;
   }
 
  private:
+  // A far place to which the way is straight: steps are doubled while it is, then halved.
+  std::size_t Farthest(std::size_t from) const {
+    std::size_t to = from + 1, step = 1;
+    const auto further = [&] {
+      return to + step < places_.size() && to + step - from <= kLongestRun &&
+             IsStraight(from, to + step, kStraight);
+    };
+    for (; further(); step *= 2) to += step;
+    for (; step >= 1; step /= 2) {
+      if (further()) to += step;
+    }
+    return to;
+  }
+
+  // Leaves out places within kStraight of the way between their neighbours, where the places that were left
+  // out before allow it.
+  std::vector<std::size_t> WithoutSpare(const std::vector<std::size_t>& kept) const {
+    std::vector<std::size_t> fewer = {kept.front()};
+    for (std::size_t k = 1; k < kept.size(); ++k) {
+      const std::size_t from = fewer.back();
+      const bool spare = k + 1 < kept.size() && kept[k + 1] - from <= kLongestRun &&
+                         Distance(kept[k], from, kept[k + 1]) < kStraight &&
+                         IsStraight(from, kept[k + 1], 2.0 * kStraight);
+      if (!spare) fewer.push_back(kept[k]);
+    }
+    return fewer;
+  }
+
   double Distance(std::size_t place, std::size_t from, std::size_t to) const {
     const Vec3 &a = places_[from], &b = places_[to];
     const Vec3 along = b - a, out = places_[place] - a;

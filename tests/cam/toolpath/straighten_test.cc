@@ -7,7 +7,9 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/clock.h"
 #include "tests/support/random.h"
+#include "tests/support/sanitized.h"
 
 namespace patchmill {
 namespace {
@@ -44,6 +46,26 @@ TEST(Straighten, JoinsWhatGoesOnStraight) {
   ASSERT_EQ(path.moves.size(), 3u);
   EXPECT_EQ(path.moves[1].to, Vec3(30.0, 10.0, -20.0));
   EXPECT_EQ(path.moves[2].to, Vec3(30.0, 110.0, -20.0));
+}
+
+// A million moves, straight, bent and nearly straight, in the time of their reading.
+TEST(Straighten, TakesLittleTimeForManyMoves) {
+  Random random(3);
+  for (const double bend : {0.0, 1e-7, 1e-2}) {
+    std::vector<Move> moves;
+    Vec3 at = Vec3::Zero(), way = Vec3(1, 0, 0);
+    for (int k = 0; k < 300'000; ++k) {
+      way = (way + bend * random.Point(-1, 1)).normalized();
+      at += 0.1 * way;
+      moves.push_back(Cut(at));
+    }
+    const Toolpath path = PathOf(std::move(moves));
+    const double start = testing::ClockSeconds(CLOCK_PROCESS_CPUTIME_ID);
+    const Toolpath after = Straightened(path);
+    EXPECT_LT(testing::ClockSeconds(CLOCK_PROCESS_CPUTIME_ID) - start, testing::kSanitized ? 20.0 : 1.0)
+        << bend;
+    EXPECT_EQ(after.moves.back().to, path.moves.back().to);
+  }
 }
 
 TEST(Straighten, KeepsWhatDiffersAndTurnsBack) {
