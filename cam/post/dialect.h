@@ -13,14 +13,14 @@
 
 namespace patchmill {
 
-// How the lines of a program are built.
+// The grammar of the lines of a program.
 enum class Syntax {
   kRs274,    // G1 X10 Y5
   kSiemens,  // the same, with Siemens' own words
   kKlartext  // L X+10 Y+5, Heidenhain conversational
 };
 
-// What a word of a control does beyond RS274, as far as the reader of programs must know.
+// The effect of a word that RS274 does not have, as far as it matters to the reader of programs.
 struct DialectWord {
   char tolerance_letter = '\0';  // its value (mm) limits how far the control leaves the path; 0: no effect
 };
@@ -37,6 +37,9 @@ struct Dialect {
   std::string line_end = "\n";
   // On a line with G20 or G21, F counts in the new unit; else in the unit in force before the line.
   bool feed_in_new_unit = false;
+
+  // mm, machine coordinates, at most 0: a Z of G53, M91 or SUPA at or above it counts as above everything.
+  double machine_top = 0.0;
 
   // The control leaves the path by nothing, whatever the modes.
   bool follows_exactly = false;

@@ -111,7 +111,7 @@ absl::StatusOr<BlockModes> SortModes(const GcodeBlock& block, const Dialect& dia
       continue;
     }
     constexpr std::string_view kKnown = "FHIJKPQRSTXYZ";
-    const bool of_own = modes.word && (word.letter == modes.word->tolerance_letter || word.letter == 'E');
+    const bool of_own = modes.word && word.letter == modes.word->tolerance_letter;
     if (kKnown.find(word.letter) == std::string_view::npos && !of_own) {
       return absl::InvalidArgumentError(Spell(word) + " is not supported");
     }

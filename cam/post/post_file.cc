@@ -118,6 +118,7 @@ const std::map<std::string, Reader, std::less<>>& Keys() {
        [](View v, Dialect& d) { return ReadChoice(v, "before", "new", d.feed_in_new_unit); }},
       {"control.line_numbers",
        [](View v, Dialect& d) { return ReadInteger(v, 0, 1000, d.line_number_step); }},
+      {"control.machine_top", [](View v, Dialect& d) { return ReadNumber(v, -50.0, 0.0, d.machine_top); }},
       {"control.line_end",
        [](View v, Dialect& d) {
          bool crlf = false;

@@ -1,4 +1,4 @@
-// Lines of a post file with placeholders: which there are, and what they stand for.
+// The placeholders in the lines of a post file, and their values.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@
 
 namespace patchmill {
 
-// What placeholders may stand for. A value that is empty leaves the line out.
+// The values of the placeholders. A line with a placeholder whose value is empty is left out.
 struct PostValues {
   std::string program;      // number, four digits
   std::string work_offset;  // "G54"

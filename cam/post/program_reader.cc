@@ -50,6 +50,7 @@ class Interpreter {
   void Note(const char* code, const std::string& message) { NoteAt(line_, code, message); }
   void NoteAt(int line, const char* code, const std::string& message);
   void SetFeed(const BlockModes& block);
+  void UseOwnWord(const BlockModes& block);
   // The target of the axis words. An axis whose place is unknown is taken to start where it is first sent.
   absl::StatusOr<Vec3> Target(const BlockModes& block);
   absl::Status TooMany() const {
@@ -87,6 +88,19 @@ class Interpreter {
   double speed_ = 0.0;  // 1/min; 0 before any S, as in RS274
   bool spindle_on_ = false, reversed_ = false, coolant_on_ = false, ended_ = false;
 };
+
+// The word for a place in machine coordinates.
+const char* MachineWord(Syntax syntax) {
+  switch (syntax) {
+    case Syntax::kRs274:
+      return "G53";
+    case Syntax::kSiemens:
+      return "SUPA";
+    case Syntax::kKlartext:
+      return "M91";
+  }
+  return "";
+}
 
 double UnitOf(int units_code) { return units_code == 200 ? kInch : 1.0; }  // mm
 
@@ -210,14 +224,25 @@ absl::Status Interpreter::SetModes(const BlockModes& block) {
   if (block.plane) plane_ = *block.plane;
   PM_RETURN_IF_ERROR(SetOffsets(block));
   PM_RETURN_IF_ERROR(SetPathMode(block));
-  if (block.word && block.word->tolerance_letter != '\0') {
-    const auto& value = block[block.word->tolerance_letter];
-    own_blending_ = value ? unit_ * *value : kInfinity;
-  }
+  if (block.word) UseOwnWord(block);
   if (block.distance) incremental_ = *block.distance == 910;
   if (block.arc_distance) arc_absolute_ = *block.arc_distance == 901;
   if (block.motion) motion_mode_ = *block.motion;
   return absl::OkStatus();
+}
+
+// A word of the dialect's own. What a post file of the user says of it is an assumption.
+void Interpreter::UseOwnWord(const BlockModes& block) {
+  const Dialect* known = FindDialect(dialect_.name);
+  if (known == nullptr || known->text != dialect_.text) {
+    Note(
+        "WORD_EXPLAINED",
+        fmt::format("a word is taken for what the post file {} says of it, and so are all others of its kind",
+                    dialect_.name));
+  }
+  if (block.word->tolerance_letter == '\0') return;
+  const auto& value = block[block.word->tolerance_letter];
+  own_blending_ = value ? unit_ * *value : kInfinity;
 }
 
 void Interpreter::NoteAt(int line, const char* code, const std::string& message) {
@@ -293,10 +318,15 @@ absl::Status Interpreter::Emit(ProgramMove::Kind kind, const Vec3& to, bool to_a
 
 absl::Status Interpreter::Home(const BlockModes& block) {
   const auto& z = block['Z'];
-  if (block['X'] || block['Y'] || !z) return Bad("G53 is supported with Z alone");
-  if (motion_mode_ != 0 && motion_mode_ != 10) return Bad("G53 needs G0 or G1 in force");
-  if (incremental_) return Bad("G53 while G91 is in force");
-  if (*z < 0.0) return Bad("G53 with Z below machine zero: it is not known to be above everything");
+  const char* word = MachineWord(dialect_.syntax);
+  if (block['X'] || block['Y'] || !z) return Bad(fmt::format("{} is supported with Z alone", word));
+  if (motion_mode_ != 0 && motion_mode_ != 10) return Bad(fmt::format("{} needs G0 or G1 in force", word));
+  if (incremental_) return Bad(fmt::format("{} while G91 is in force", word));
+  if (*z * unit_ < dialect_.machine_top) {
+    return Bad(
+        fmt::format("{} with Z below machine {}: it is not known to be above everything", word,
+                    dialect_.machine_top == 0.0 ? "zero" : fmt::format("Z{:g}", dialect_.machine_top)));
+  }
   if (motion_mode_ == 10 && !(feed_ > 0.0)) return Bad("feed move without a feed rate");
   return UpToMachineZero(motion_mode_ == 0 ? ProgramMove::Kind::kRapid : ProgramMove::Kind::kFeed);
 }

@@ -54,11 +54,12 @@ struct ProgramMove {
 
 struct ProgramMotion {
   std::vector<ProgramMove> moves;
-  // What the program leaves to the state of the control, and the value that is assumed: UNITS_ASSUMED (mm, of
-  // coordinates or of an F), DISTANCE_MODE_ASSUMED (G90), ARC_MODE_ASSUMED (G91.1), LENGTH_OFFSET_ASSUMED
-  // (set before), LENGTH_OFFSET_OF_OTHER_TOOL (H is not T), PATH_MODE_ASSUMED (no smoothing),
-  // SPINDLE_REVERSED (a left-hand cutter). Also FEED_IN_UNIT_BEFORE: an F on a line that changes the unit.
-  // All are warnings with their program lines.
+  // What the program leaves to the state of the control, and the value that is assumed: UNITS_ASSUMED (mm,
+  // of coordinates or of an F), DISTANCE_MODE_ASSUMED (G90), ARC_MODE_ASSUMED (G91.1),
+  // LENGTH_OFFSET_ASSUMED (set before), LENGTH_OFFSET_OF_OTHER_TOOL (H is not T), PATH_MODE_ASSUMED (no
+  // smoothing), SPINDLE_REVERSED (a left-hand cutter), CONTROL_DEVIATION_ASSUMED and WORD_EXPLAINED (what
+  // the user says of the control). Also FEED_IN_UNIT_BEFORE: an F on a line that changes the unit. All are
+  // warnings with their program lines.
   Diagnostics assumptions;
   int tool_number = 0;
   // mm, the largest G64 P + Q in force (Q absent: P); kInfinity for G64 without P or with P0.

@@ -242,6 +242,28 @@ TEST(OwnPostFile, LineNumbersBeginAgain) {
   EXPECT_THAT(*program, Not(HasSubstr("\r\nN100000 ")));
 }
 
+// What the user says of a word is an assumption of the verdict; what Patchmill says of it is not.
+TEST(OwnPostFile, ItsWordsAreAssumptions) {
+  const std::string text = "G21 G90 G17 G94\nM50\nG53 G0 Z0\n";
+  const auto motion = ReadProgram(text, {.dialect = *ParseDialect(kShop)});
+  ASSERT_TRUE(motion.ok()) << motion.status();
+  ASSERT_EQ(motion->assumptions.size(), 1u);
+  EXPECT_EQ(motion->assumptions.front().code, "WORD_EXPLAINED");
+  EXPECT_THAT(motion->assumptions.front().message, HasSubstr("line 2: "));
+  const auto haas = ReadProgram("G21 G90\nG187 E0.01\nG53 G0 Z0\n", {.dialect = *FindDialect("haas")});
+  ASSERT_TRUE(haas.ok());
+  EXPECT_TRUE(haas->assumptions.empty());
+}
+
+// After homing GRBL's axes stand below their switches.
+TEST(DialectReader, AboveEverythingBeginsAtTheTopOfTheMachine) {
+  EXPECT_TRUE(ReadProgram("G21 G90\nG53 G0 Z-2\n", {.dialect = *FindDialect("grbl")}).ok());
+  EXPECT_TRUE(ReadProgram("G20 G90\nG53 G0 Z-0.07\n", {.dialect = *FindDialect("grbl")}).ok());
+  EXPECT_FALSE(ReadProgram("G21 G90\nG53 G0 Z-2.1\n", {.dialect = *FindDialect("grbl")}).ok());
+  EXPECT_FALSE(ReadProgram("G20 G90\nG53 G0 Z-0.1\n", {.dialect = *FindDialect("grbl")}).ok());
+  EXPECT_FALSE(ReadProgram("G21 G90\nG53 G0 Z-2\n").ok());
+}
+
 TEST(OwnPostFile, FaultsHaveTheirLine) {
   const auto with = [](const std::string& from, const std::string& to) {
     std::string text = kShop;
