@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "patchmill/v1/model.pb.h"
+#include "tests/service/patchmill.h"
 #include "tests/service/process.h"
 
 namespace patchmill {
@@ -12,14 +13,10 @@ namespace {
 
 using testing::Finished;
 using ::testing::HasSubstr;
+using testing::Patchmill;
 using testing::Slurp;
 using testing::TempDir;
 using ::testing::UnorderedElementsAre;
-
-Finished Patchmill(std::vector<std::string> arguments) {
-  arguments.insert(arguments.begin(), PATCHMILL_BIN "/patchmill");
-  return testing::Run(arguments);
-}
 
 const char kOutline[] = R"({"length_unit": "LENGTH_UNIT_MILLIMETER", "sections": {"curves": [
   {"bezier": {"points": [0, 0, 0, 20, 0, 12, 40, 0, 0]}}, {"bezier": {"points": [0, 20, 2, 20, 20, 16, 40, 20, 2]}},

@@ -11,6 +11,7 @@
 #include "server/convert/model.h"
 #include "server/importer.h"
 #include "tests/service/embedded.h"
+#include "tests/service/patchmill.h"
 #include "tests/service/process.h"
 #include "tests/service/requests.h"
 #include "tests/service/status_matchers.h"
@@ -24,6 +25,7 @@ using testing::Embedded;
 using testing::Finished;
 using ::testing::HasSubstr;
 using ::testing::Not;
+using testing::Patchmill;
 using testing::RpcStatusIs;
 using testing::Slurp;
 using testing::TempDir;
@@ -219,11 +221,6 @@ TEST(ConvertModel, BordersFollowTheirToleranceAndNeedMorePatchesForIt) {
   }
 }
 
-Finished Patchmill(std::vector<std::string> arguments) {
-  arguments.insert(arguments.begin(), PATCHMILL_BIN "/patchmill");
-  return testing::Run(arguments);
-}
-
 // The program without the two lines that name its source.
 std::string WithoutSource(const std::string& program) {
   std::string kept;
@@ -276,16 +273,7 @@ TEST(CliConvert, EveryCommandReadsWhatItWrites) {
     const Finished converted = Patchmill({"convert", box, dir / name, "--scale", "2"});
     ASSERT_EQ(converted.status, 0) << converted.err;
     const std::string model = dir / name;
-    for (const std::vector<std::string>& command : std::vector<std::vector<std::string>>{
-             {"check", model},
-             {"faces", model},
-             {"regions", model, "--scallop", "0.2", "--tolerance", "0.05"},
-             {"reach", model, "--tool-diameters", "2,6"},
-             {"lines", model, "-o", dir / "lines.json"},
-             {"evaluate", model, "--at", "0,0.5,0.5"},
-             {"mill", model, "-o", dir / "part.ngc", "--scallop", "0.2", "--tolerance", "0.05"},
-             {"verify", model, dir / "part.ngc", "--scallop", "0.2", "--tolerance", "0.05", "--tool-diameter",
-              "6"}}) {
+    for (const std::vector<std::string>& command : testing::CommandsOn(model, dir, "0.05", "0.2")) {
       const Finished run = Patchmill(command);
       EXPECT_EQ(run.status, 0) << command.front() << ": " << run.err << run.out;
     }

@@ -12,6 +12,7 @@
 #include "core/base/vec.h"
 #include "patchmill/v1/model_service.pb.h"
 #include "server/importer.h"
+#include "tests/service/patchmill.h"
 #include "tests/service/process.h"
 
 namespace patchmill {
@@ -21,6 +22,7 @@ using ::testing::AllOf;
 using testing::Finished;
 using ::testing::HasSubstr;
 using ::testing::Not;
+using testing::Patchmill;
 using testing::Slurp;
 using testing::TempDir;
 
@@ -31,11 +33,6 @@ const Vec3 kCenter(15.0, 12.0, 8.0);
 
 #define NEEDS_IMPORTER() \
   if (access(ImporterPath().c_str(), X_OK) != 0) GTEST_SKIP() << "built without Open CASCADE"
-
-Finished Patchmill(std::vector<std::string> arguments) {
-  arguments.insert(arguments.begin(), PATCHMILL_BIN "/patchmill");
-  return testing::Run(arguments);
-}
 
 Finished Mill(const std::string& model, const std::string& program, const std::vector<std::string>& more) {
   std::vector<std::string> arguments = {

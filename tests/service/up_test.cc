@@ -8,6 +8,7 @@
 #include "core/network/control_points.h"
 #include "server/convert/model.h"
 #include "tests/service/embedded.h"
+#include "tests/service/patchmill.h"
 #include "tests/service/process.h"
 #include "tests/service/requests.h"
 #include "tests/service/status_matchers.h"
@@ -149,33 +150,20 @@ TEST(Up, RefusesWithTheField) {
 TEST(Up, EveryCommandTakesIt) {
   const TempDir dir;
   const std::string bar = dir.Write("bar.pb", ToProto(Bar()).SerializeAsString());
-  const auto run = [](std::vector<std::string> arguments) {
-    arguments.insert(arguments.begin(), PATCHMILL_BIN "/patchmill");
-    return testing::Run(arguments);
-  };
   for (const std::string up : {"auto", "f4"}) {
     SCOPED_TRACE(up);
-    for (std::vector<std::string> command : std::vector<std::vector<std::string>>{
-             {"check", bar},
-             {"faces", bar},
-             {"regions", bar, "--scallop", "0.05", "--tolerance", "0.02"},
-             {"reach", bar, "--tool-diameters", "2,6"},
-             {"lines", bar, "-o", dir / "lines.json"},
-             {"evaluate", bar, "--at", "0,0.5,0.5"},
-             {"mill", bar, "-o", dir / "part.ngc", "--scallop", "0.05", "--tolerance", "0.02"},
-             {"verify", bar, dir / "part.ngc", "--scallop", "0.05", "--tolerance", "0.02", "--tool-diameter",
-              "6"}}) {
+    for (std::vector<std::string> command : testing::CommandsOn(bar, dir, "0.02", "0.05")) {
       command.insert(command.end(), {"--up", up});
-      const Finished done = run(command);
+      const Finished done = testing::Patchmill(command);
       EXPECT_EQ(done.status, 0) << command.front() << ": " << done.err << done.out;
     }
   }
-  EXPECT_THAT(run({"check", bar, "--up", "f4"}).out,
+  EXPECT_THAT(testing::Patchmill({"check", bar, "--up", "f4"}).out,
               AllOf(HasSubstr("INFO UP_CHOSEN face f4: face f4 (wall) points up"),
                     HasSubstr("to X 0.000 Y 20.000 Z 10.000")));
-  EXPECT_THAT(run({"mill", bar, "-o", dir / "part.ngc", "--up", "auto"}).err,
+  EXPECT_THAT(testing::Patchmill({"mill", bar, "-o", dir / "part.ngc", "--up", "auto"}).err,
               HasSubstr("UP_CHOSEN: z points up"));
-  const Finished none = run({"mill", bar, "-o", dir / "none.ngc", "--up", "q"});
+  const Finished none = testing::Patchmill({"mill", bar, "-o", dir / "none.ngc", "--up", "q"});
   EXPECT_EQ(none.status, 2);
   EXPECT_THAT(none.err, HasSubstr("--up: job.setup.up_face = \"q\"; must be a plane face of the model"));
 }
