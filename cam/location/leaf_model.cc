@@ -312,7 +312,8 @@ LeafModel MakeLeafModel(const Piece& piece, const Vec4* points, std::span<const 
 }
 
 bool IsLongerAlongU(const LeafModel& model) {
-  // Of its drift: a derivative below this vanishes near the middle, and says nothing about the length.
+  // A derivative below this share of its drift vanishes near the middle. It says nothing about the length
+  // then.
   constexpr double kVanishing = 1e-3;
   const double a = model.a.norm(), b = model.b.norm();
   if (a < kVanishing * model.drift_a || b < kVanishing * model.drift_b) {

@@ -124,7 +124,7 @@ void TurnUp(const Vec3& n, Placement& placement) {
     placement.up = axis;
     return;
   }
-  // What looks down is laid on its back first, as UpAxis::kNegZ does.
+  // A normal that points down is turned around the x axis first, as UpAxis::kNegZ does.
   const Vec3 above(n.x(), n.z() < 0.0 ? -n.y() : n.y(), std::abs(n.z()));
   Mat3 turn = TurnToZ(above);
   if (n.z() < 0.0) {

@@ -38,8 +38,8 @@ struct Setup {
   std::optional<double> stock_top_z;  // PROGRAM frame, default model top + allowance
   double allowance = 0.5;
   std::vector<ObstacleOutline> obstacles;
-  // What the turn of the placement follows from, once the model is known (ChooseUp in cam/plan/choose_up.h):
-  // the axis that shows most, or the outer normal of a plane face. At most one is set.
+  // ChooseUp (cam/plan/choose_up.h) turns the placement once the model is known: the axis that shows most
+  // points up, or the outer normal of a plane face. At most one is set.
   bool up_auto = false;
   std::string up_face = {};  // id
 };

@@ -1,16 +1,18 @@
-// The run that a thread works for. A proof deep inside a query asks it whether the result is still wanted.
+// The run that a thread works for. A proof deep inside a query asks this run whether the result is still
+// wanted.
 #pragma once
 
 #include "core/base/run_context.h"
 
 namespace patchmill {
 
-// While it lives, the thread works for `run`; then again for the run before. ParallelFor makes one for the
-// time of each body, RunJob and Verify for what they compute between their loops.
+// A thread works for `run` from the constructor on until the destructor, and after that for the run before.
+// ParallelFor makes a PolledRun for each body. RunJob and Verify make one for what they compute between their
+// loops.
 //
-// A function that stops early because of ThisThreadCancelled() returns a result without meaning. So whoever
-// makes a PolledRun must call run.Check() before a result is used. A cancel is never taken back, and a
-// deadline never moves, so that Check() fails then.
+// A function that stops early because of ThisThreadCancelled() returns a result without meaning. So the maker
+// of a PolledRun must call run.Check() before the result is used. A cancel is never taken back and a deadline
+// never moves, so Check() fails then.
 class PolledRun {
  public:
   explicit PolledRun(const RunContext& run) : before_(current_) { current_ = &run; }

@@ -1,9 +1,16 @@
 // Whole jobs over legal surfaces with awkward parameters: verified, and in the time of usual ones.
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
 #include <gtest/gtest.h>
 
+#include "cam/post/program_reader.h"
+#include "cam/toolpath/segment_metric.h"
 #include "tests/support/clock.h"
 #include "tests/support/hard_parts.h"
 #include "tests/support/jobs/jobs.h"
+#include "tests/support/shapes.h"
 
 namespace patchmill {
 namespace {
@@ -35,6 +42,42 @@ TEST(RunJobHardParts, Copies) {
   EXPECT_NEAR(two.report.least_cut_length, one.report.least_cut_length, 0.01 * one.report.least_cut_length);
   EXPECT_GE(two.report.verify.cut_length, two.report.least_cut_length);
   EXPECT_LE(two.report.verify.cut_length, 1.1 * one.report.verify.cut_length);
+}
+
+// The deepest leftover of a reason, against plain distances from a dense sample to the feed moves of the
+// text.
+TEST(RunJobHardParts, DeepestLeftover) {
+  for (const std::uint64_t seed : {3u, 8u}) {
+    const Surface surface =
+        testing::PlacedSurface(testing::RandomBspline(seed, {.spans = 5, .size = 40.0, .amplitude = 2.5}));
+    Job job = HardJob();
+    job.operation.strategy = Strategy::kContour;
+    const JobResult result = testing::Mill(surface, job);
+    ASSERT_FALSE(result.program.empty()) << testing::Describe(result);
+    std::vector<PathSegment> moves;
+    for (const ProgramMove& move : ReadProgram(result.program)->moves) {
+      if (move.kind == ProgramMove::Kind::kFeed)
+        moves.push_back({move.from + Vec3(0, 0, 3.0), move.to + Vec3(0, 0, 3.0)});
+    }
+    double dense = 0.0, deepest = 0.0;
+    for (const Piece& piece : surface.pieces) {
+      constexpr int kSamples = 40;
+      for (int k = 0; k < kSamples * kSamples; ++k) {
+        const Vec3 p = Position(piece, (k / kSamples + 0.5) / kSamples, (k % kSamples + 0.5) / kSamples);
+        double least = kInfinity;
+        for (const PathSegment& move : moves) {
+          if (least <= 3.0 + dense) break;  // nothing deeper
+          least = std::min(least, PathDistance(move, p));
+        }
+        dense = std::max(dense, least - 3.0);
+      }
+    }
+    for (const double of_reason : result.report.verify.deepest_unreachable)
+      deepest = std::max(deepest, of_reason);
+    ASSERT_GT(dense, 0.05) << "nothing is left by these contours";
+    EXPECT_GE(deepest, 0.98 * dense) << seed;
+    EXPECT_LE(deepest, 1.1 * dense + 0.005) << seed;  // a sample is not the deepest place
+  }
 }
 
 TEST(RunJobHardParts, UnevenWeights) {
