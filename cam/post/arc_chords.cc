@@ -9,12 +9,12 @@ namespace patchmill {
 
 namespace {
 
-// The radii at both ends may differ by kRadiusSlack, or by kRelativeRadiusSlack of the radius if that is
-// more, but never by more than kLargestRadiusSlack.
-constexpr double kRadiusSlack = 0.005;         // mm
+// The radii at both ends may differ by the slack, or by kRelativeRadiusSlack of the radius if that is more,
+// but never by more than kMostSlacks times the slack.
 constexpr double kRelativeRadiusSlack = 1e-3;  // of the radius
-constexpr double kLargestRadiusSlack = 0.5;    // mm
-constexpr double kFullCircle = 1e-10;          // rad; a smaller sweep means a full circle
+constexpr double kMostSlacks = 100.0;
+constexpr double kRadiusSlack = 0.005;  // mm, of R words
+constexpr double kFullCircle = 1e-10;   // rad; a smaller sweep means a full circle
 
 }  // namespace
 
@@ -23,7 +23,8 @@ absl::StatusOr<ArcChords> ChordArc(const PlaneArc& arc, double chord_error, std:
   const double r0 = start.norm(), r1 = end.norm();
   const double difference = std::abs(r1 - r0);
   if (!(std::min(r0, r1) > 1e-9)) return absl::InvalidArgumentError("arc of no radius");
-  const double slack = std::min(std::max(kRadiusSlack, kRelativeRadiusSlack * r0), kLargestRadiusSlack);
+  const double slack = std::min(std::max(arc.radius_slack, kRelativeRadiusSlack * std::max(r0, r1)),
+                                kMostSlacks * arc.radius_slack);
   if (difference > slack) {
     return absl::InvalidArgumentError(
         fmt::format("arc radii {:.4f} mm at the start and {:.4f} mm at the end differ", r0, r1));
@@ -31,14 +32,17 @@ absl::StatusOr<ArcChords> ChordArc(const PlaneArc& arc, double chord_error, std:
   double sweep = std::atan2(Cross(start, end), start.dot(end));
   if (arc.clockwise) sweep = -sweep;
   if (sweep < kFullCircle) sweep += 2.0 * kPi;
+  const double more_turns = std::max(0, arc.turns - 1);
+  sweep += 2.0 * kPi * more_turns;
   // |chord - arc| <= r dtheta^2 / 8 if both are followed at the same rate.
   const double largest = std::max(r0, r1);
-  const double chords = std::ceil(sweep * std::sqrt(largest / (8.0 * chord_error)));
+  const double chords =
+      std::max(std::ceil(sweep * std::sqrt(largest / (8.0 * chord_error))), 4.0 * (more_turns + 1.0));
   if (!(chords <= static_cast<double>(max_chords))) {
     return absl::ResourceExhaustedError(
         fmt::format("arc needs {:.0f} chords; at most {} are left", chords, max_chords));
   }
-  const auto count = std::max<std::size_t>(4, static_cast<std::size_t>(chords));
+  const auto count = static_cast<std::size_t>(chords);
   const double start_angle = std::atan2(start.y(), start.x());
   ArcChords result;
   result.points.reserve(count);

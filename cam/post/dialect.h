@@ -37,6 +37,11 @@ struct Dialect {
   std::string line_end = "\n";
   // On a line with G20 or G21, F counts in the new unit; else in the unit in force before the line.
   bool feed_in_new_unit = false;
+  bool arc_turns = false;        // P of G2 and G3 counts full and partial turns
+  bool d0_is_no_offset = false;  // D0 of G41 and G42 is an offset of zero, and D0 is in force at the start
+  double arc_radius_slack =
+      0.005;  // mm: by how much the radii at both ends of an arc may differ (arc_chords.h)
+  double arc_radius_slack_in = 0.0;  // inch, the same while G20 is in force; 0: arc_radius_slack
 
   // mm, machine coordinates, at most 0: a Z of G53, M91 or SUPA at or above it counts as above everything.
   double machine_top = 0.0;

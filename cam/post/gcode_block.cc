@@ -1,12 +1,11 @@
 #include "cam/post/gcode_block.h"
 
 #include <cctype>
-#include <charconv>
-#include <cmath>
 #include <string>
 
 #include <fmt/format.h>
 
+#include "cam/post/gcode_expression.h"
 #include "core/base/status.h"
 
 namespace patchmill {
@@ -39,42 +38,11 @@ absl::Status StripLine(std::string_view line, std::string& code) {
   return absl::OkStatus();
 }
 
-// Reads [+-] digits [. digits] with at least one digit. There is no exponent in RS274.
-absl::StatusOr<double> ParseNumber(char letter, std::string_view code, std::size_t& at) {
-  const std::size_t begin = at;
-  if (at < code.size() && (code[at] == '+' || code[at] == '-')) ++at;
-  bool digits = false, point = false;
-  for (; at < code.size(); ++at) {
-    if (std::isdigit(static_cast<unsigned char>(code[at]))) {
-      digits = true;
-    } else if (code[at] == '.' && !point) {
-      point = true;
-    } else {
-      break;
-    }
-  }
-  if (!digits) {
-    if (at < code.size() && (code[at] == '[' || code[at] == '#')) {
-      return Bad(fmt::format("{}: expressions and parameters are not supported", letter));
-    }
-    return Bad(fmt::format("{} without a number", letter));
-  }
-  std::string_view text = code.substr(begin, at - begin);
-  if (text.front() == '+') text.remove_prefix(1);
-  double value = 0.0;
-  const auto [end, error] =
-      std::from_chars(text.data(), text.data() + text.size(), value, std::chars_format::fixed);
-  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) {
-    return Bad(fmt::format("{}{}: not a number in range", letter, text.substr(0, 40)));
-  }
-  return value;
-}
-
 }  // namespace
 
 absl::Status ParseGcodeLine(std::string_view line, GcodeBlock& block) {
   block.words.clear();
-  block.percent = block.program_number = false;
+  block.percent = block.program_number = block.deletable = false;
   static thread_local std::string code;
   PM_RETURN_IF_ERROR(StripLine(line, code));
   if (code == "%") {
@@ -87,17 +55,24 @@ absl::Status ParseGcodeLine(std::string_view line, GcodeBlock& block) {
     return absl::OkStatus();
   }
   std::size_t at = 0;
+  if (!code.empty() && code.front() == '/') {
+    block.deletable = true;
+    at = code.size() > 1 && code[1] >= '1' && code[1] <= '9' ? 2 : 1;
+  }
+  const std::size_t begin = at;
   while (at < code.size()) {
     const char letter = code[at];
-    if (letter == '/') return Bad("block delete is not supported: it cannot be known whether the line runs");
+    if (letter == '/') return Bad("/ within a line");
     if (letter == '#' || letter == '[' || letter == '=') {
-      return Bad("expressions and parameters are not supported");
+      return Bad("assignments and parameters are not supported");
     }
     if (letter == 'O') return Bad("O-words (subroutines and program flow) are not supported");
     if (letter < 'A' || letter > 'Z') return Bad(fmt::format("unexpected {}", Printable(letter)));
-    const bool first = at == 0;
+    const bool first = at == begin;
     ++at;
-    PM_ASSIGN_OR_RETURN(const double number, ParseNumber(letter, code, at));
+    const absl::StatusOr<double> value = ReadGcodeValue(code, at);
+    if (!value.ok()) return Bad(fmt::format("{}: {}", letter, std::string(value.status().message())));
+    const double number = *value;
     if (letter == 'N') {
       if (!first) return Bad("N within a line");
       continue;

@@ -17,10 +17,15 @@ BlockModes::Code* GroupOfG(BlockModes& modes, int code) {
     case 10:
     case 20:
     case 30:
+    case 730:
     case 800:
+    case 810:
+    case 820:
+    case 830:
       return &modes.motion;
     case 40:
     case 280:
+    case 300:
     case 530:
       return &modes.once;
     case 170:
@@ -31,6 +36,10 @@ BlockModes::Code* GroupOfG(BlockModes& modes, int code) {
     case 210:
       return &modes.units;
     case 400:
+    case 410:
+    case 411:
+    case 420:
+    case 421:
       return &modes.compensation;
     case 430:
     case 490:
@@ -52,8 +61,13 @@ BlockModes::Code* GroupOfG(BlockModes& modes, int code) {
     case 901:
     case 911:
       return &modes.arc_distance;
+    case 930:
     case 940:
+    case 950:
       return &modes.feed_mode;
+    case 980:
+    case 990:
+      return &modes.cycle_end;
     default:
       return nullptr;
   }
@@ -83,10 +97,18 @@ BlockModes::Code* GroupOfM(BlockModes& modes, int code) {
 
 std::string Spell(const GcodeWord& word) { return fmt::format("{}{:.10g}", word.letter, word.number); }
 
+std::string Unsupported(const GcodeWord& word) {
+  const std::string spelling = Spell(word);
+  if (spelling == "M97" || spelling == "M98" || spelling == "M99" || spelling == "G65" || spelling == "G66")
+    return spelling + ": subprograms are not supported; post the program without them";
+  return spelling + " is not supported";
+}
+
 }  // namespace
 
 absl::StatusOr<BlockModes> SortModes(const GcodeBlock& block, const Dialect& dialect) {
   BlockModes modes;
+  modes.deletable = block.deletable;
   for (const GcodeWord& word : block.words) {
     if (word.letter == 'G' || word.letter == 'M') {
       if (const auto own = dialect.words.find(Spell(word)); own != dialect.words.end()) {
@@ -102,7 +124,12 @@ absl::StatusOr<BlockModes> SortModes(const GcodeBlock& block, const Dialect& dia
         code = static_cast<int>(std::lround(tenfold));
         group = word.letter == 'G' ? GroupOfG(modes, code) : GroupOfM(modes, code);
       }
-      if (group == nullptr) return absl::InvalidArgumentError(Spell(word) + " is not supported");
+      if (group == nullptr) return absl::InvalidArgumentError(Unsupported(word));
+      // Many controls have G80 in a group of its own; beside another motion it only ends cycles.
+      if (group == &modes.motion && (code == 800 || modes.motion == 800)) {
+        if (!modes.motion || code != 800) modes.motion = code;
+        continue;
+      }
       if (group->has_value()) {
         return absl::InvalidArgumentError(Spell(word) +
                                           ": another word of its modal group is in the same line");
@@ -110,7 +137,7 @@ absl::StatusOr<BlockModes> SortModes(const GcodeBlock& block, const Dialect& dia
       *group = code;
       continue;
     }
-    constexpr std::string_view kKnown = "FHIJKPQRSTXYZ";
+    constexpr std::string_view kKnown = "DFHIJKLPQRSTXYZ";
     const bool of_own = modes.word && word.letter == modes.word->tolerance_letter;
     if (kKnown.find(word.letter) == std::string_view::npos && !of_own) {
       return absl::InvalidArgumentError(Spell(word) + " is not supported");

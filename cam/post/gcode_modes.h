@@ -14,7 +14,8 @@ namespace patchmill {
 // Codes are ten times their number: G90.1 is 901. 0 is a code (G0, M0); a missing code is std::nullopt.
 struct BlockModes {
   using Code = std::optional<int>;
-  Code motion;                                  // G0 G1 G2 G3 G80
+  bool deletable = false;                       // the line starts with /
+  Code motion;                                  // G0 G1 G2 G3 G73 G80 G81 G82 G83
   Code plane;                                   // G17 G18 G19
   Code units;                                   // G20 G21
   Code distance;                                // G90 G91
@@ -22,9 +23,10 @@ struct BlockModes {
   Code tool_length;                             // G43 G49
   Code work_offset;                             // G54 .. G59
   Code path;                                    // G61 G61.1 G64
-  Code once;                                    // G4 G28 G53
-  Code compensation;                            // G40
-  Code feed_mode;                               // G94
+  Code once;                                    // G4 G28 G30 G53
+  Code compensation;                            // G40 G41 G42 G41.1 G42.1
+  Code feed_mode;                               // G93 G94 G95
+  Code cycle_end;                               // G98 G99
   Code stop;                                    // M0 M1 M2 M30
   Code tool_change;                             // M6
   Code spindle;                                 // M3 M4 M5

@@ -8,6 +8,8 @@
 #include <fmt/format.h>
 
 #include "cam/post/arc_chords.h"
+#include "cam/post/block_use.h"
+#include "cam/post/drilling_cycle.h"
 #include "cam/post/gcode_modes.h"
 #include "cam/post/program_lines.h"
 #include "core/base/status.h"
@@ -30,24 +32,34 @@ class Interpreter {
   explicit Interpreter(const ReaderParams& params) : params_(params), dialect_(params_.dialect) {}
 
   absl::Status Run(const BlockModes& block, int line);
+  void SkipLine() { motion_.has_deletable_lines = true; }
   bool ended() const { return ended_; }
   ProgramMotion Take();
 
  private:
-  absl::Status CheckUse(const BlockModes& block) const;
   absl::Status SetModes(const BlockModes& block);
   absl::Status SetPathMode(const BlockModes& block);
-  double Smoothing() const;  // mm: by how much the control may leave the path now
+  double Smoothing() const;     // mm: by how much the control may leave the path now
+  double BareBlending() const;  // mm: the same under a G64 without P
   absl::Status SetTool(const BlockModes& block);
   absl::Status SetOffsets(const BlockModes& block);
+  absl::Status SetCompensation(const BlockModes& block);
+  absl::Status CheckFeed() const;  // a feed move may begin
   absl::Status Home(const BlockModes& block);
   absl::Status Reference(const BlockModes& block);
-  absl::Status UpToMachineZero(ProgramMove::Kind kind);
+  // Moves the named axes to places of the machine: Z above everything, X and Y to where the program frame
+  // does not know them.
+  absl::Status ToMachine(const BlockModes& axes, ProgramMove::Kind kind);
+  absl::Status Cycle(const BlockModes& block);
   absl::Status Straight(const BlockModes& block);
   absl::Status Arc(const BlockModes& block);
   // Notes what the program leaves to the control's state, once each, when it first matters.
   void NoteAssumptions(ProgramMove::Kind kind, bool below);
   void Note(const char* code, const std::string& message) { NoteAt(line_, code, message); }
+  void NotePlane(const char* motion) {
+    if (plane_stated_ || dialect_.syntax == Syntax::kKlartext) return;
+    Note("PLANE_ASSUMED", fmt::format("{}, and none of G17, G18 and G19 so far; taken as G17", motion));
+  }
   void NoteAt(int line, const char* code, const std::string& message);
   void SetFeed(const BlockModes& block);
   void UseOwnWord(const BlockModes& block);
@@ -78,12 +90,23 @@ class Interpreter {
   PathMode path_mode_ = PathMode::kNotStated;
   double blending_ = 0.0;               // mm, of G64
   std::optional<double> own_blending_;  // mm, by a word of the dialect's own
-  bool unit_stated_ = false, distance_stated_ = false, arc_stated_ = false;
-  int length_of_ = -1;           // H of the last G43; -1 if it had none
-  int tool_ = -1, loaded_ = -1;  // T of the program and the tool in the spindle; -1 if not known yet
-  int work_offset_ = 0;          // code; 0 if not stated yet
-  int tool_length_ = 0;          // code; 0 if not stated yet
-  bool shifted_ = false;         // the tool or its length changed below machine zero, so Z is unknown
+  bool unit_stated_ = false, distance_stated_ = false, arc_stated_ = false, plane_stated_ = false;
+  int length_of_ = -1;                   // H of the last G43; -1 if it had none
+  int tool_ = -1, loaded_ = -1;          // T of the program and the tool in the spindle; -1 if not known yet
+  int work_offset_ = 0;                  // code; 0 if not stated yet
+  int tool_length_ = 0;                  // code; 0 if not stated yet
+  int feed_mode_ = 940;                  // code
+  int feed_mode_line_ = 0;               // its line
+  std::optional<double> offset_number_;  // the last D of G41 or G42
+  int cycle_end_ = 0;                    // G98 or G99 as code; 0 if not stated yet
+  // Of a series of canned cycles: words that stay in force, and where it began.
+  struct Series {
+    std::optional<double> r, z, q;
+    double begin_z = 0.0;
+    bool began_above = false;
+  };
+  Series series_;
+  bool shifted_ = false;  // the tool or its length changed below machine zero, so Z is unknown
   bool moved_ = false, moved_below_ = false;
   double speed_ = 0.0;  // 1/min; 0 before any S, as in RS274
   bool spindle_on_ = false, reversed_ = false, coolant_on_ = false, ended_ = false;
@@ -104,51 +127,31 @@ const char* MachineWord(Syntax syntax) {
 
 double UnitOf(int units_code) { return units_code == 200 ? kInch : 1.0; }  // mm
 
-bool HasAxis(const BlockModes& block) { return block['X'] || block['Y'] || block['Z']; }
-bool HasCenter(const BlockModes& block) { return block['I'] || block['J'] || block['K'] || block['R']; }
-
-// Each word must have a use. A word without one was meant for something that this reader does not know.
-absl::Status Interpreter::CheckUse(const BlockModes& block) const {
-  const bool dwell = block.once == 40;
-  const bool smooth = block.path == 640;
-  const int mode = block.motion.value_or(motion_mode_);
-  const bool arc = mode == 20 || mode == 30;
-  const bool own = block.word.has_value();
-  if (block['P'] && !dwell && !smooth && !own) return Bad("P without G4 or G64");
-  if (block['Q'] && !smooth && !own) return Bad("Q without G64");
-  if (own && (HasAxis(block) || HasCenter(block) || block.once))
-    return Bad("coordinates beside a word of the dialect's own");
-  if (block['H'] && block.tool_length != 430) return Bad("H without G43");
-  if (dwell && (!block['P'] || smooth || HasAxis(block))) return Bad("G4 needs P and no coordinates");
-  if (HasCenter(block) && !arc) return Bad("I, J, K or R without G2 or G3");
-  if (HasAxis(block) && mode == 800 && block.once != 280)
-    return Bad("coordinates while no motion is in force");
-  for (const char letter : {'F', 'P', 'Q', 'H', 'S', 'T'}) {
-    if (block[letter] && *block[letter] < 0.0) return Bad(fmt::format("{} is negative", letter));
-  }
-  return absl::OkStatus();
-}
-
 absl::Status Interpreter::SetPathMode(const BlockModes& block) {
   if (!block.path) return absl::OkStatus();
   path_mode_ = *block.path == 640 ? PathMode::kBlended : PathMode::kExact;
   if (path_mode_ == PathMode::kExact) return absl::OkStatus();
+  blending_ = BareBlending();
   if (dialect_.path_tolerance.substr(0, 3) != "G64") {
     if (block['P'] || block['Q']) return Bad("G64 has no P and no Q in this dialect");
-    blending_ = params_.control_deviation.value_or(kInfinity);
-  } else if (block['P'].value_or(0.0) == 0.0) {
-    blending_ = kInfinity;  // for LinuxCNC P0 means that there is no limit
-  } else {
+  } else if (block['P'].value_or(0.0) != 0.0) {  // for LinuxCNC P0 means that there is no limit
     // LinuxCNC merges moves within Q and blends the result within P. If Q is absent it takes Q = P.
     blending_ = unit_ * (*block['P'] + block['Q'].value_or(*block['P']));
   }
   return absl::OkStatus();
 }
 
+double Interpreter::BareBlending() const {
+  if (dialect_.path_tolerance.substr(0, 3) == "G64") return kInfinity;
+  return params_.control_deviation.value_or(kInfinity);
+}
+
+// A program that states nothing is judged as one with a bare G64, unless the path is assumed to be exact.
 double Interpreter::Smoothing() const {
   if (dialect_.follows_exactly || path_mode_ == PathMode::kExact) return 0.0;
   if (own_blending_) return *own_blending_;
-  return path_mode_ == PathMode::kBlended ? blending_ : 0.0;
+  if (path_mode_ == PathMode::kBlended) return blending_;
+  return params_.assume_exact_path ? 0.0 : BareBlending();
 }
 
 absl::Status Interpreter::SetTool(const BlockModes& block) {
@@ -158,11 +161,15 @@ absl::Status Interpreter::SetTool(const BlockModes& block) {
   }
   if (block.tool_change) {
     spindle_on_ = false;  // every RS274 control stops it for the change
-    if (!above_) shifted_ = true;
+    if (!above_) {
+      Note("TOOL_CHANGE_ASSUMED", "the tool is taken to be changed above everything, anywhere in X and Y");
+      above_ = true;
+      known_[0] = known_[1] = shifted_ = false;
+    }
   }
   if (block.tool_change && tool_ >= 0) {
-    if (loaded_ >= 0 && loaded_ != tool_) {
-      return Bad(fmt::format("M6: tool {} after tool {}; one tool per program", tool_, loaded_));
+    if (loaded_ >= 0 && loaded_ != tool_ && !params_.several_tools) {
+      return Bad(fmt::format("M6: tool {} after tool {}; state every tool of the program", tool_, loaded_));
     }
     loaded_ = tool_;
   }
@@ -222,12 +229,50 @@ absl::Status Interpreter::SetModes(const BlockModes& block) {
   }
   if (block.coolant) coolant_on_ = *block.coolant != 90;
   if (block.plane) plane_ = *block.plane;
+  plane_stated_ = plane_stated_ || block.plane;
+  PM_RETURN_IF_ERROR(SetCompensation(block));
   PM_RETURN_IF_ERROR(SetOffsets(block));
   PM_RETURN_IF_ERROR(SetPathMode(block));
+  if (block.feed_mode) {
+    if (*block.feed_mode != feed_mode_ && !block['F']) feed_ = 0.0;
+    feed_mode_ = *block.feed_mode;
+    feed_mode_line_ = line_;
+  }
   if (block.word) UseOwnWord(block);
   if (block.distance) incremental_ = *block.distance == 910;
   if (block.arc_distance) arc_absolute_ = *block.arc_distance == 901;
-  if (block.motion) motion_mode_ = *block.motion;
+  if (block.cycle_end) cycle_end_ = *block.cycle_end;
+  if (block.motion) {
+    if (IsCycle(*block.motion) && !IsCycle(motion_mode_)) {
+      series_ = Series();
+      series_.begin_z = at_.z();
+      series_.began_above = above_;
+    } else if (*block.motion != motion_mode_) {
+      series_.r = series_.z = series_.q = std::nullopt;
+    }
+    motion_mode_ = *block.motion;
+  }
+  return absl::OkStatus();
+}
+
+// Cutter radius compensation is harmless only if its offset is zero.
+absl::Status Interpreter::SetCompensation(const BlockModes& block) {
+  if (block['D']) offset_number_ = block['D'];
+  if (block.compensation.value_or(400) == 400) return absl::OkStatus();
+  const bool by_value = *block.compensation % 10 != 0;  // G41.1: D is a diameter, not a number
+  const bool zero =
+      by_value ? block['D'] == 0.0 : dialect_.d0_is_no_offset && offset_number_.value_or(0.0) == 0.0;
+  if (zero) return absl::OkStatus();
+  return Bad(fmt::format("G{:g}: the offset of cutter radius compensation is not in the program",
+                         *block.compensation / 10.0));
+}
+
+absl::Status Interpreter::CheckFeed() const {
+  if (feed_mode_ != 940) {
+    return Bad(fmt::format("feed move under G{} of line {}; feeds per minute (G94) are supported",
+                           feed_mode_ / 10, feed_mode_line_));
+  }
+  if (!(feed_ > 0.0)) return Bad("feed move without a feed rate");
   return absl::OkStatus();
 }
 
@@ -259,6 +304,10 @@ void Interpreter::NoteAssumptions(ProgramMove::Kind kind, bool below) {
            "F is read while neither G20 nor G21 is in force; taken as mm/min, as LinuxCNC starts");
   }
   if (!distance_stated_) Note("DISTANCE_MODE_ASSUMED", "neither G90 nor G91 so far; taken as G90");
+  if (work_offset_ == 0 && dialect_.syntax != Syntax::kKlartext) {
+    Note("WORK_OFFSET_ASSUMED",
+         "no work offset is in force (G54 to G59); the active one is taken as that of this set-up");
+  }
   if (!below) return;
   if (tool_length_ != 430) {
     Note("LENGTH_OFFSET_ASSUMED", "no G43 is in force; Z is taken as the tip of the right tool");
@@ -271,10 +320,16 @@ void Interpreter::NoteAssumptions(ProgramMove::Kind kind, bool below) {
     Note("SPINDLE_REVERSED", "M4 is in force; a right-hand cutter does not cut that way");
   }
   if (kind != ProgramMove::Kind::kFeed || dialect_.follows_exactly) return;
-  if (path_mode_ == PathMode::kNotStated && !own_blending_) {
-    Note("PATH_MODE_ASSUMED", "neither G61 nor G64 so far; taken as no smoothing");
-  } else if (path_mode_ == PathMode::kBlended && params_.control_deviation && !own_blending_ &&
-             Smoothing() == *params_.control_deviation) {
+  const bool stated = path_mode_ != PathMode::kNotStated || own_blending_;
+  if (!stated && params_.assume_exact_path) {
+    Note("PATH_MODE_ASSUMED", "no word for the path so far; taken as exact, as the request says");
+  } else if (!stated) {
+    Note("PATH_MODE_ASSUMED",
+         "no word for the path so far; taken as a G64 that states no limit, unless the path is assumed to be "
+         "exact");
+  }
+  if (path_mode_ != PathMode::kExact && params_.control_deviation && !own_blending_ &&
+      Smoothing() == *params_.control_deviation) {
     Note("CONTROL_DEVIATION_ASSUMED",
          fmt::format("the control is taken to leave the path by at most {:.4g} mm: no word says so",
                      *params_.control_deviation));
@@ -299,6 +354,7 @@ absl::Status Interpreter::Emit(ProgramMove::Kind kind, const Vec3& to, bool to_a
   move.from_anywhere = anywhere_;
   move.chord_error = chord_error;
   move.spindle_on = spindle_on_ && speed_ > 0.0;
+  move.tool = loaded_;
   if (kind == ProgramMove::Kind::kFeed) {
     motion_.controller_tolerance = std::max(motion_.controller_tolerance, Smoothing());
   } else if (!(above_ && to_above)) {
@@ -316,48 +372,63 @@ absl::Status Interpreter::Emit(ProgramMove::Kind kind, const Vec3& to, bool to_a
   return absl::OkStatus();
 }
 
+// G53, SUPA, M91: to places of the machine.
 absl::Status Interpreter::Home(const BlockModes& block) {
   const auto& z = block['Z'];
   const char* word = MachineWord(dialect_.syntax);
-  if (block['X'] || block['Y'] || !z) return Bad(fmt::format("{} is supported with Z alone", word));
+  if (!HasAxis(block)) return Bad(fmt::format("{} without coordinates", word));
   if (motion_mode_ != 0 && motion_mode_ != 10) return Bad(fmt::format("{} needs G0 or G1 in force", word));
   if (incremental_) return Bad(fmt::format("{} while G91 is in force", word));
-  if (*z * unit_ < dialect_.machine_top) {
-    return Bad(
-        fmt::format("{} with Z below machine {}: it is not known to be above everything", word,
-                    dialect_.machine_top == 0.0 ? "zero" : fmt::format("Z{:g}", dialect_.machine_top)));
+  const double safe = params_.machine_z_safe.value_or(dialect_.machine_top);
+  if (z && *z * unit_ < safe) {
+    return Bad(fmt::format("{} with Z below machine {}: it is not known to be above everything", word,
+                           safe == 0.0 ? "zero" : fmt::format("Z{:g}", safe)));
   }
-  if (motion_mode_ == 10 && !(feed_ > 0.0)) return Bad("feed move without a feed rate");
-  return UpToMachineZero(motion_mode_ == 0 ? ProgramMove::Kind::kRapid : ProgramMove::Kind::kFeed);
+  if (z && *z * unit_ < dialect_.machine_top) {
+    Note("MACHINE_Z_ASSUMED",
+         fmt::format("{} Z{:g} is taken as above everything, as every machine Z from {:g} mm up", word, *z,
+                     safe));
+  }
+  if (motion_mode_ == 10) PM_RETURN_IF_ERROR(CheckFeed());
+  return ToMachine(block, motion_mode_ == 0 ? ProgramMove::Kind::kRapid : ProgramMove::Kind::kFeed);
 }
 
-absl::Status Interpreter::UpToMachineZero(ProgramMove::Kind kind) {
-  if (!moved_) motion_.first_motion_is_up = true;
-  shifted_ = false;
-  PM_RETURN_IF_ERROR(Emit(kind, at_, true, 0.0));
-  motion_.last_motion_is_up = true;
+absl::Status Interpreter::ToMachine(const BlockModes& axes, ProgramMove::Kind kind) {
+  const bool aside = axes['X'] || axes['Y'];
+  if (axes['Z']) {
+    if (!moved_) motion_.first_motion_is_up = !aside;
+    shifted_ = false;
+  }
+  if (axes['Z'] || !above_) {
+    anywhere_ = aside && !above_;  // nobody knows over which places the move goes
+    PM_RETURN_IF_ERROR(Emit(kind, at_, axes['Z'] || above_, 0.0));
+    motion_.last_motion_is_up = !anywhere_;
+  }
+  known_[0] = known_[0] && !axes['X'];
+  known_[1] = known_[1] && !axes['Y'];
   return absl::OkStatus();
 }
 
-// G28: a rapid to the coordinates in the mode in force, then the axes that are named go to machine zero.
+// G28, G30: a rapid to the coordinates in the mode in force, then the axes that are named, or all, go to the
+// reference point.
 absl::Status Interpreter::Reference(const BlockModes& block) {
-  const auto& z = block['Z'];
-  if (!HasAxis(block)) return Bad("G28 without coordinates moves all axes at once; give Z alone");
-  if ((block['X'] || block['Y']) && (z || !above_)) {
-    return Bad("G28 with X or Y is supported only without Z, and above everything");
+  BlockModes axes = block;
+  if (!HasAxis(block)) {
+    for (const char axis : kAxis) axes.value[static_cast<std::size_t>(axis - 'A')] = 0.0;
   }
-  if (!z) {
-    known_[0] = known_[0] && !block['X'];
-    known_[1] = known_[1] && !block['Y'];
-    return absl::OkStatus();
-  }
-  if (!incremental_ || *z != 0.0) {
-    if (!moved_ && incremental_) return Bad("G28 is incremental from an unknown place");
+  const bool away = std::any_of(kAxis.begin(), kAxis.end(), [&](char axis) {
+    return block[axis] && (!incremental_ || *block[axis] != 0.0);
+  });
+  if (away) {
     PM_ASSIGN_OR_RETURN(const Vec3 to, Target(block));
-    NoteAssumptions(ProgramMove::Kind::kRapid, true);
-    PM_RETURN_IF_ERROR(Emit(ProgramMove::Kind::kRapid, to, false, 0.0));
+    NoteAssumptions(ProgramMove::Kind::kRapid, !above_ || block['Z']);
+    PM_RETURN_IF_ERROR(Emit(ProgramMove::Kind::kRapid, to, above_ && !block['Z'], 0.0));
   }
-  return UpToMachineZero(ProgramMove::Kind::kRapid);
+  const std::string word = fmt::format("G{}", *block.once / 10);
+  const auto writes = [&](const std::string& line) { return line.find(word) != std::string::npos; };
+  if (axes['Z'] && std::none_of(dialect_.begin.begin(), dialect_.begin.end(), writes))
+    Note("REFERENCE_ASSUMED", fmt::format("the reference point of {} is taken as above everything", word));
+  return ToMachine(axes, ProgramMove::Kind::kRapid);
 }
 
 absl::StatusOr<Vec3> Interpreter::Target(const BlockModes& block) {
@@ -403,6 +474,14 @@ absl::Status Interpreter::Arc(const BlockModes& block) {
   arc.from = in_plane(at_);
   arc.to = in_plane(to);
   arc.clockwise = motion_mode_ == 20;
+  const bool inches = unit_ == kInch && dialect_.arc_radius_slack_in > 0.0;
+  arc.radius_slack = inches ? kInch * dialect_.arc_radius_slack_in : dialect_.arc_radius_slack;
+  if (block['P'] && block.path != 640) {
+    if (!(*block['P'] >= 1.0 && *block['P'] <= 1e9) || *block['P'] != std::floor(*block['P']))
+      return Bad(fmt::format("P{:g} of an arc; it must be a whole number of turns, 1 or more", *block['P']));
+    arc.turns = static_cast<int>(*block['P']);
+  }
+  NotePlane("an arc");
   const auto& i = block[kOffset[static_cast<std::size_t>(first)]];
   const auto& j = block[kOffset[static_cast<std::size_t>(second)]];
   if (block[kOffset[static_cast<std::size_t>(normal)]])
@@ -438,19 +517,60 @@ absl::Status Interpreter::Arc(const BlockModes& block) {
   return absl::OkStatus();
 }
 
+absl::Status Interpreter::Cycle(const BlockModes& block) {
+  if (plane_ != 170) return Bad("a canned cycle needs G17");
+  if (shifted_) return Bad("a canned cycle after a change of tool length offset: Z is not known");
+  if (block['L'] && (!(*block['L'] >= 1.0 && *block['L'] <= 1e6) || *block['L'] != std::floor(*block['L'])))
+    return Bad("L of a canned cycle; it must be a whole number of holes, 1 or more");
+  const std::pair<char, std::optional<double>*> words[] = {
+      {'R', &series_.r}, {'Z', &series_.z}, {'Q', &series_.q}};
+  for (const auto& [letter, word] : words) {
+    if (block[letter]) *word = block[letter];
+  }
+  const std::string name = fmt::format("G{}", motion_mode_ / 10);
+  if (!series_.r || !series_.z) return Bad(fmt::format("{} needs R and Z", name));
+  const bool pecks = motion_mode_ == 730 || motion_mode_ == 830;
+  if (pecks && !(series_.q.value_or(0.0) > 0.0)) return Bad(fmt::format("{} needs Q above 0", name));
+  if (incremental_ && above_) return Bad(fmt::format("R of {} is incremental from an unknown place", name));
+  NotePlane("a canned cycle");
+  if (cycle_end_ == 0) Note("CYCLE_END_ASSUMED", "neither G98 nor G99 so far; taken as G98");
+  BlockModes over = block;
+  over.value['Z' - 'A'] = std::nullopt;
+  const int holes = incremental_ ? static_cast<int>(block['L'].value_or(1.0)) : 1;
+  for (int hole = 0; hole < holes; ++hole) {
+    DrillingCycle cycle;
+    PM_ASSIGN_OR_RETURN(const Vec3 to, Target(over));
+    cycle.hole = Xy(to);
+    cycle.from = at_;
+    cycle.from_above = above_;
+    cycle.retract_z = *series_.r * unit_ + (incremental_ ? at_.z() : 0.0);
+    cycle.bottom_z = *series_.z * unit_ + (incremental_ ? cycle.retract_z : 0.0);
+    if (cycle.bottom_z > cycle.retract_z) return Bad(fmt::format("{}: its Z is above its R", name));
+    cycle.ends_above = cycle_end_ != 990 && series_.began_above;
+    cycle.end_z = cycle_end_ == 990 ? cycle.retract_z : std::max(cycle.retract_z, series_.begin_z);
+    NoteAssumptions(ProgramMove::Kind::kFeed, true);
+    for (const CycleMove& move : ExpandCycle(cycle)) {
+      PM_RETURN_IF_ERROR(Emit(move.kind, move.to, move.to_above, 0.0));
+      anywhere_ = !known_[0] || !known_[1];
+    }
+  }
+  return absl::OkStatus();
+}
+
 absl::Status Interpreter::Run(const BlockModes& block, int line) {
   line_ = line;
-  PM_RETURN_IF_ERROR(CheckUse(block));
+  PM_RETURN_IF_ERROR(CheckUse(block, motion_mode_, dialect_));
   PM_RETURN_IF_ERROR(SetModes(block));
-  const bool arc = motion_mode_ == 20 || motion_mode_ == 30;
-  const bool explicit_arc = arc && block.motion.has_value();
+  motion_.has_deletable_lines = motion_.has_deletable_lines || block.deletable;
+  const bool arc = IsArc(motion_mode_), cycle = IsCycle(motion_mode_);
+  const bool stated = (arc || cycle) && block.motion.has_value();
   if (block.once == 530) {
     PM_RETURN_IF_ERROR(Home(block));
-  } else if (block.once == 280) {
+  } else if (block.once == 280 || block.once == 300) {
     PM_RETURN_IF_ERROR(Reference(block));
-  } else if (HasAxis(block) || HasCenter(block) || explicit_arc) {
-    if (motion_mode_ != 0 && !(feed_ > 0.0)) return Bad("feed move without a feed rate");
-    PM_RETURN_IF_ERROR(arc ? Arc(block) : Straight(block));
+  } else if (HasAxis(block) || (HasCenter(block) && !cycle) || stated) {
+    if (motion_mode_ != 0) PM_RETURN_IF_ERROR(CheckFeed());
+    PM_RETURN_IF_ERROR(cycle ? Cycle(block) : arc ? Arc(block) : Straight(block));
   }
   if (block.stop == 20 || block.stop == 300) {
     spindle_on_ = coolant_on_ = false;  // every RS274 control switches them off at the end
@@ -490,6 +610,10 @@ absl::StatusOr<ProgramMotion> ReadProgram(std::string_view text, const ReaderPar
     const auto block = lines.Read(code);
     if (!block.ok()) return AtLine(line, block.status());
     if (!block->has_value()) continue;
+    if ((*block)->deletable && !params.run_deletable_lines) {
+      interpreter.SkipLine();
+      continue;
+    }
     if (const absl::Status done = interpreter.Run(**block, line); !done.ok()) return AtLine(line, done);
   }
   return interpreter.Take();

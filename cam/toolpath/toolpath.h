@@ -46,22 +46,21 @@ struct ProgramMove {
   bool from_above = false;  // starts at machine Z zero ("above everything"); from.z() means +infinity
   bool to_above = false;    // ends at machine Z zero
   // X or Y of `from` was never stated, so the axis may have been anywhere. `from` then holds the place to
-  // which the axis is first sent.
+  // which the axis is first sent. Or X or Y goes to a place of the machine (G28 X0, G53 X0), which is
+  // unknown.
   bool from_anywhere = false;
   double chord_error = 0.0;  // mm, if the move is one chord of an arc
   bool spindle_on = false;   // at a speed above zero
+  int tool = -1;             // number of the tool in the spindle; -1 before the first tool change
 };
 
 struct ProgramMotion {
   std::vector<ProgramMove> moves;
-  // What the program leaves to the state of the control, and the value that is assumed: UNITS_ASSUMED (mm,
-  // of coordinates or of an F), DISTANCE_MODE_ASSUMED (G90), ARC_MODE_ASSUMED (G91.1),
-  // LENGTH_OFFSET_ASSUMED (set before), LENGTH_OFFSET_OF_OTHER_TOOL (H is not T), PATH_MODE_ASSUMED (no
-  // smoothing), SPINDLE_REVERSED (a left-hand cutter), CONTROL_DEVIATION_ASSUMED and WORD_EXPLAINED (what
-  // the user says of the control). Also FEED_IN_UNIT_BEFORE: an F on a line that changes the unit. All are
-  // warnings with their program lines.
+  // What the program leaves to the state of the control (cam/post/program_assumptions.h), and
+  // FEED_IN_UNIT_BEFORE (an F on a line that changes the unit). All are warnings with their program lines.
   Diagnostics assumptions;
   int tool_number = 0;
+  bool has_deletable_lines = false;  // some lines start with / (block delete)
   // mm, the largest G64 P + Q in force (Q absent: P); kInfinity for G64 without P or with P0.
   // controller_tolerance holds while feeding, rapid_tolerance over rapids below machine zero.
   double controller_tolerance = 0.0;

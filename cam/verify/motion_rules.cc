@@ -33,12 +33,11 @@ class Rules {
       return m.from_anywhere && ((!m.from_above && InStock(m.from)) || (!m.to_above && InStock(m.to)));
     });
     if (lost == motion_.moves.end()) return;
-    Broken(
-        "UNKNOWN_START",
-        fmt::format("line {}: a move below the stock's top from a place in X and Y that the program has not "
-                    "stated",
-                    lost->line),
-        lost->line);
+    Broken("UNKNOWN_START",
+           fmt::format("line {}: a move below the stock's top from or to a place in X and Y that the program "
+                       "does not state",
+                       lost->line),
+           lost->line);
   }
 
   void Spindle() {

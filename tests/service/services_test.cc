@@ -254,7 +254,7 @@ class VerifyProgram : public ::testing::Test {
     *request_.add_tools() = testing::BallTool();
     request_.set_tolerance_mm(0.02);
     request_.set_program(
-        "G21 G90 G17\nG53 G0 Z0\nT1 M6\nG43 H1\nG64 P0.001\nS9000 M3\nG0 X-1 Y6\nG0 Z9\n"
+        "G21 G90 G17 G54\nG53 G0 Z0\nT1 M6\nG43 H1\nG64 P0.001\nS9000 M3\nG0 X-1 Y6\nG0 Z9\n"
         "G1 Z7 F400\nG1 X13 F900\nG0 Z9\nG53 G0 Z0\nM5\nM9\nM2\n");
   }
   grpc::Status Verify() {

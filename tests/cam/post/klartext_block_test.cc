@@ -153,7 +153,7 @@ TEST(Siemens, TolerancesAndRefusals) {
   EXPECT_EQ(tolerance("G64\nCYCLE832()"), kInfinity);
   EXPECT_EQ(tolerance("CYCLE832(0.02,1,1)\nG60"), 0.0);
   for (const char* line : {"R1=5", "X=R1", "CYCLE800()", "TRANS X5", "G1 X5 F=R2", "D2", "CYCLE832(0.1",
-                           "G0 SUPA X0 Z0", "REPEAT A B", "IF R1==5 GOTOF ENDE", "T=\"BALL\""}) {
+                           "REPEAT A B", "IF R1==5 GOTOF ENDE", "T=\"BALL\""}) {
     const auto motion = Read(start + line + "\n", "siemens");
     EXPECT_FALSE(motion.ok()) << line;
     EXPECT_THAT(std::string(motion.status().message()), HasSubstr("line 8: "));

@@ -135,7 +135,7 @@ TEST(VerifyMotion, EndStateAndFirstMotion) {
 
 TEST(VerifyMotion, NoFeedIntoStockWithTheSpindleStopped) {
   const Surface surface = SurfaceOf(Plane(5.0));
-  const std::string start = "G21 G90 G61\nG53 G0 Z0\nT1 M6\nG43 H1\n",
+  const std::string start = "G21 G90 G54 G61\nG53 G0 Z0\nT1 M6\nG43 H1\n",
                     cut = "G0 X0 Y0\nZ5\nG1 Z0 F100\nX4\nG0 Z5\n";
   Tool tool = Ball(3);
   tool.plunge_feed = 100;
