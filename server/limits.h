@@ -23,6 +23,7 @@ inline constexpr std::size_t kMaxStatusBytes = 4096;  // of grpc-status-details-
 inline constexpr std::size_t kMaxStatusMessageBytes = 1000;
 inline constexpr int kMaxViolations = 20;
 inline constexpr std::size_t kMaxPictureBytes = std::size_t{8} << 20;
+inline constexpr int kMaxTools = 20;                  // of VerifyProgram
 inline constexpr std::size_t kMaxDiagnostics = 2000;  // of one answer; further ones are only counted
 
 // Models.

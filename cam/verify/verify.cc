@@ -10,6 +10,7 @@
 #include "cam/verify/broken_limits.h"
 #include "cam/verify/gouge.h"
 #include "cam/verify/leftover.h"
+#include "cam/verify/leftover_map.h"
 #include "cam/verify/leftover_spread.h"
 #include "cam/verify/motion_figures.h"
 #include "cam/verify/motion_rules.h"
@@ -163,7 +164,7 @@ class Verifier {
     PM_RETURN_IF_ERROR(JudgeShank(p));
     report_.gouge_ok = report_.max_gouge + smoothing <= params_.tolerance;
     if (!std::isfinite(smoothing)) {
-      Report("CONTROL_SMOOTHING", "G64 without P: how far the control may leave the path is not bounded");
+      Report("CONTROL_SMOOTHING", "no word says how far the control may leave the path: it is not bounded");
     } else if (!report_.gouge_ok && report_.max_gouge <= params_.tolerance) {
       Report(
           "CONTROL_SMOOTHING",
@@ -180,7 +181,7 @@ class Verifier {
     if (smoothing <= motion_.controller_tolerance) return absl::OkStatus();
     if (!std::isfinite(smoothing)) {
       report_.gouge_ok = false;
-      Report("CONTROL_SMOOTHING", "G64 without P: how far rapids may leave their path is not bounded");
+      Report("CONTROL_SMOOTHING", "no word says how far rapids may leave their path: it is not bounded");
       return absl::OkStatus();
     }
     GougeParams p;
@@ -251,6 +252,14 @@ class Verifier {
     }
     PM_ASSIGN_OR_RETURN(const AreaReport areas, MeasureAreas({surface_, cells}, tree, p, run_));
     TakeAreas(areas);
+    if (params_.sample_leftover) {
+      PM_ASSIGN_OR_RETURN(const std::vector<LeftoverSample> samples,
+                          SampleLeftover({surface_, cells}, tree, p, run_));
+      for (const LeftoverSample& sample : samples) {
+        report_.leftover_map.push_back(
+            {sample.at.p, sample.corners, surface_.piece(sample.at.piece).patch.value, sample.leftover});
+      }
+    }
     if (part.finish.scallop) {
       const double square = 4.0 * *part.finish.scallop * (2.0 * radius_ - *part.finish.scallop);
       report_.reachable_squares = report_.reachable_squares.value_or(0.0) + ReachableOf(areas) / square;

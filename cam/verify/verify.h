@@ -57,6 +57,7 @@ struct VerifyParams {
   // surface has the finish above.
   std::vector<FinishPart> parts;
   double min_step_fraction = 0.25;  // of the centre step on a plane: smallest step of a forced strategy
+  bool sample_leftover = false;     // fill VerifyReport::leftover_map
   Containment containment;          // placed frame; what is to be finished, and where nothing may move
 };
 
@@ -65,6 +66,15 @@ struct VerifyPlace {
   int patch_index = -1;
   std::string patch_id, face_id;
   int line = 0;  // program line of the move that caused it, or of the nearest move
+};
+
+// What the feed moves leave at one place. The corners of its cell, about a hundredth of the part wide, are
+// given in the order of the cell's border.
+struct LeftoverPlace {
+  Vec3 point = Vec3::Zero();  // on the surface, placed frame
+  std::array<Vec3, 4> corners = {};
+  int patch_index = -1;
+  std::optional<double> leftover;  // mm, below 0 where the ball goes deeper; absent where it does not reach
 };
 
 // Upper edges of all leftover classes but the last, in scallops of the part that a place lies in.
@@ -99,6 +109,7 @@ struct VerifyReport {
   // edges). More area there means that passes are closer together than needed.
   std::array<double, kLeftoverClasses> leftover_area{};
   double leftover_above_limit_area = 0.0;       // mm^2, reachable with more than scallop + tolerance left
+  std::vector<LeftoverPlace> leftover_map;      // if VerifyParams::sample_leftover is set, all over the part
   double required_stickout = 0.0;               // mm, an upper bound (RequiredStickout)
   double steepest_descent = 0.0;                // rad, of feed moves
   double tip_z_min = 0.0;                       // mm, lowest tip, program frame

@@ -15,6 +15,7 @@ constexpr Entry kLists[] = {
     {"locks[", "--lock"},
     {"edits[", "--edits or --push"},
     {"uv[", "--at"},
+    {"tools[", "--tool or --tool-diameter"},
     {"tool_diameters_mm[", "--tool-diameters"},
 };
 
@@ -65,6 +66,8 @@ constexpr Entry kOptions[] = {
     {"post.post_file", "--post"},
     {"post.program_number", "--program-number"},
     {"control_deviation_mm", "--control-deviation"},
+    {"assume_exact_path", "--assume"},
+    {"machine_z_safe_mm", "--machine-z-safe"},
     {"dialect", "--dialect"},
     {"post_file", "--dialect"},
     {"polyline_tolerance_mm", "--tolerance"},

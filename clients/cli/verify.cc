@@ -1,7 +1,10 @@
 #include <algorithm>
+#include <cmath>
 #include <memory>
 
+#include <absl/strings/match.h>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "clients/cli/commands.h"
 #include "clients/cli/input_file.h"
@@ -23,14 +26,50 @@ struct VerifyOptions {
   ReadingOptions reading;
   LimitOptions limits;
   RegionChangeOptions regions;
-  std::string model, program, report, strategy = "auto";
-  double tool_diameter = 0.0, tolerance = 0.01, leave = 0.0, zigzag_angle = 0.0, steep_angle = 45.0;
+  std::string model, program, report, tolerance_map, strategy = "auto";
+  std::optional<double> tool_diameter;
+  std::vector<std::string> tools;
+  double tolerance = 0.01, leave = 0.0, zigzag_angle = 0.0, steep_angle = 45.0;
   double detail = 0.5;
-  std::optional<double> scallop, floor, plunge_feed;
+  std::optional<double> scallop, floor, plunge_feed, machine_z_safe;
   bool no_finish = false;
+  std::vector<std::string> assume;
   PostOptions post;
   ShankOptions shank;
 };
+
+// "2=6": tool 2 has a ball of 6 mm.
+absl::StatusOr<v1::Tool> ReadTool(const std::string& text) {
+  const std::size_t equals = text.find('=');
+  double number = 0.0, diameter = 0.0;
+  const bool good = equals != std::string::npos && ReadFinite(text.substr(0, equals), number) &&
+                    ReadFinite(text.substr(equals + 1), diameter) && number >= 1.0 && number <= 99999.0 &&
+                    number == std::floor(number);
+  if (!good) {
+    return absl::InvalidArgumentError(
+        fmt::format("--tool {}; must be NUMBER=DIAMETER, as 2=6, with a number from 1 to 99999", text));
+  }
+  v1::Tool tool;
+  tool.set_number(static_cast<int>(number));
+  tool.mutable_ball_end()->set_diameter_mm(diameter);
+  return tool;
+}
+
+absl::Status SetTools(const VerifyOptions& options, v1::VerifyProgramRequest& request) {
+  if (options.tool_diameter) request.add_tools()->mutable_ball_end()->set_diameter_mm(*options.tool_diameter);
+  for (const std::string& text : options.tools) {
+    absl::StatusOr<v1::Tool> tool = ReadTool(text);
+    if (!tool.ok()) return tool.status();
+    *request.add_tools() = *std::move(tool);
+  }
+  if (request.tools().empty())
+    return absl::InvalidArgumentError("--tool-diameter is missing; set it, or --tool for each tool");
+  for (v1::Tool& tool : *request.mutable_tools()) {
+    SetShank(options.shank, tool);
+    if (options.plunge_feed) tool.set_plunge_feed_mm_per_min(*options.plunge_feed);
+  }
+  return absl::OkStatus();
+}
 
 absl::StatusOr<v1::VerifyProgramRequest> MakeRequest(const VerifyOptions& options) {
   v1::VerifyProgramRequest request;
@@ -54,10 +93,9 @@ absl::StatusOr<v1::VerifyProgramRequest> MakeRequest(const VerifyOptions& option
   request.set_dialect(std::move(post->dialect));
   request.set_post_file(std::move(post->post_file));
   if (options.post.control_deviation) request.set_control_deviation_mm(*options.post.control_deviation);
-  v1::Tool& tool = *request.add_tools();
-  tool.mutable_ball_end()->set_diameter_mm(options.tool_diameter);
-  SetShank(options.shank, tool);
-  if (options.plunge_feed) tool.set_plunge_feed_mm_per_min(*options.plunge_feed);
+  request.set_assume_exact_path(!options.assume.empty());  // the only one so far
+  if (options.machine_z_safe) request.set_machine_z_safe_mm(*options.machine_z_safe);
+  if (const absl::Status set = SetTools(options, request); !set.ok()) return set;
   request.set_tolerance_mm(options.tolerance);
   if (options.scallop) request.set_scallop_mm(*options.scallop);
   request.set_stock_to_leave_mm(options.leave);
@@ -69,6 +107,7 @@ absl::StatusOr<v1::VerifyProgramRequest> MakeRequest(const VerifyOptions& option
   const absl::Status regions =
       SetRegions(options.regions, request.mutable_regions_sha256(), request.mutable_region_overrides());
   if (!regions.ok()) return regions;
+  request.set_leftover_map(!options.tolerance_map.empty());
   request.set_max_threads(options.common.threads);
   if (const absl::Status fits = CheckRequestSize(request.ByteSizeLong()); !fits.ok()) return fits;
   return request;
@@ -82,6 +121,8 @@ bool OwnScallops(const RegionChangeOptions& options) {
 
 void Print(const VerifyOptions& options, const v1::Report& report) {
   fmt::print("outcome   {}\n", Short(report.outcome()));
+  if (!report.assumption_codes().empty())
+    fmt::print("          only under {}\n", fmt::join(report.assumption_codes(), ", "));
   fmt::print("gouge     {:<11} {:.4f} mm (limit {:g}) at {}\n", Short(report.gouge_check()),
              report.max_gouge_mm(), options.tolerance, Line(report.max_gouge_at()));
   fmt::print(
@@ -122,11 +163,20 @@ absl::Status Verdict(const VerifyOptions& options, v1::Outcome outcome) {
   return absl::FailedPreconditionError(fmt::format("{}: {}{}", options.program, Short(outcome), more));
 }
 
+// The path of a file of the map: its ending replaced.
+std::string MapPath(const std::string& path, const char* ending) {
+  if (path.empty()) return path;
+  const bool ends = absl::EndsWithIgnoreCase(path, ".png") || absl::EndsWithIgnoreCase(path, ".csv");
+  return (ends ? path.substr(0, path.size() - 4) : path) + ending;
+}
+
 absl::Status Run(const VerifyOptions& options, InterruptWatch& watch) {
   OutputFile report_file(options.report);
+  OutputFile map_csv(MapPath(options.tolerance_map, ".csv"));
+  OutputFile map_png(MapPath(options.tolerance_map, ".png"));
   absl::StatusOr<v1::VerifyProgramRequest> request = MakeRequest(options);
   if (!request.ok()) return request.status();
-  if (const absl::Status writable = CheckWritable({&report_file}); !writable.ok()) {
+  if (const absl::Status writable = CheckWritable({&report_file, &map_csv, &map_png}); !writable.ok()) {
     return writable;
   }
   absl::StatusOr<Connection> connection = Connect(options.common);
@@ -141,6 +191,10 @@ absl::Status Run(const VerifyOptions& options, InterruptWatch& watch) {
   bool complete = false;
   while (reader->Read(&response)) {
     if (response.has_progress()) bar.Show(response.progress());
+    if (response.has_artifact()) {
+      const v1::ArtifactChunk& chunk = response.artifact();
+      (chunk.name() == "leftover.csv" ? map_csv : map_png).Append(chunk.data());
+    }
     if (!response.has_report()) continue;
     report = response.report();
     complete = true;
@@ -150,7 +204,7 @@ absl::Status Run(const VerifyOptions& options, InterruptWatch& watch) {
   if (!status.ok()) return FromGrpc(status, options.common, watch);
   if (!complete) return absl::DataLossError("the answer ended without a report");
   if (report_file.wanted()) report_file.Set(Json(report));
-  if (const absl::Status written = Commit({&report_file}); !written.ok()) return written;
+  if (const absl::Status written = Commit({&report_file, &map_csv, &map_png}); !written.ok()) return written;
   Print(options, report);
   return Verdict(options, report.outcome());
 }
@@ -162,7 +216,11 @@ Command AddVerify(CLI::App& app) {
   app.add_option("MODEL", options->model, kModelHelp)->required();
   app.add_option("PROGRAM", options->program, "program text, of Patchmill or of any other source")
       ->required();
-  AddNumber(app, "--tool-diameter", options->tool_diameter, "ball diameter, mm")->required();
+  auto* diameter = AddNumber(app, "--tool-diameter", options->tool_diameter,
+                             "ball diameter of the one tool of the program, mm; required without --tool");
+  app.add_option("--tool", options->tools,
+                 "T=D: number and ball diameter (mm) of a tool; once for each tool of the program")
+      ->excludes(diameter);
   AddShankOptions(app, options->shank);
   AddNumber(app, "--plunge-feed", options->plunge_feed,
             "highest feed of descents steeper than 30 degrees, mm/min; default: unknown and not checked");
@@ -192,7 +250,16 @@ Command AddVerify(CLI::App& app) {
   AddSetupOptions(app, options->setup);
   AddStockOptions(app, options->setup);
   AddPostOptions(app, "--dialect,--post", options->post);
+  app.add_option("--assume", options->assume,
+                 "what to assume where the program does not say it: path=exact (the control stops at every "
+                 "point)")
+      ->check(CLI::IsMember({"path=exact"}));
+  AddNumber(app, "--machine-z-safe", options->machine_z_safe,
+            "machine Z from which up a place of G53 is above everything, mm; default: -10, or machine_top of "
+            "the dialect if that is lower");
   app.add_option("--report", options->report, "write the report here (.json)");
+  app.add_option("--tolerance-map", options->tolerance_map,
+                 "write what is left over the part: FILE.csv with places and FILE.png from above");
   AddCommonOptions(app, options->common);
   return [options](InterruptWatch& watch) { return Run(*options, watch); };
 }

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "cam/post/program_assumptions.h"
 #include "cam/region/map/regions_digest.h"
 #include "server/convert/enums.h"
 #include "server/convert/setup.h"
@@ -253,6 +254,7 @@ void FillFromVerifier(const VerifyReport& verify, const Vec3& zero, bool scallop
     return d.code == "RAPID_IN_STOCK" || d.code == "RAPID_DOG_LEG";
   });
   report->set_stock_check(State(!in_stock));
+  for (std::string& code : AssumptionCodes(verify.findings)) report->add_assumption_codes(std::move(code));
   report->set_max_gouge_mm(Number(verify.max_gouge));
   *report->mutable_max_gouge_at() = PlaceToProto(verify.max_gouge_at, zero);
   report->set_max_leftover_mm(Number(verify.max_leftover));

@@ -1,4 +1,10 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <string>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -6,10 +12,13 @@
 #include "cam/plan/plan.h"
 #include "cam/plan/resolve.h"
 #include "cam/post/program_reader.h"
+#include "cam/verify/join_reports.h"
+#include "cam/verify/tool_moves.h"
 #include "core/base/status.h"
 #include "server/convert/enums.h"
 #include "server/convert/fields.h"
 #include "server/convert/job.h"
+#include "server/convert/leftover_map.h"
 #include "server/convert/outline.h"
 #include "server/convert/overrides.h"
 #include "server/convert/report.h"
@@ -34,17 +43,35 @@ void ReadRegions(const v1::VerifyProgramRequest& request, Operation& op, FieldEr
   }
 }
 
-// The request as a job: set-up, tool, tolerance, stock to leave, floor, strategy.
-Job ReadJob(const v1::VerifyProgramRequest& request, FieldErrors& errors) {
+// The tools by their numbers. A single one is that of the whole program, whatever its number.
+std::vector<Tool> ReadTools(const v1::VerifyProgramRequest& request, FieldErrors& errors) {
+  std::vector<Tool> tools;
+  if (request.tools().empty()) errors.Missing("tools");
+  if (request.tools_size() > limits::kMaxTools) {
+    errors.Add("tools", fmt::format("has {}; at most {}", request.tools_size(), limits::kMaxTools));
+    return tools;
+  }
+  for (int i = 0; i < request.tools_size(); ++i) {
+    const std::string field = fmt::format("tools[{}]", i);
+    tools.push_back(FromProto(request.tools(i), field, CuttingData::kOptional, errors));
+    const bool again = std::any_of(tools.begin(), tools.end() - 1,
+                                   [&](const Tool& t) { return t.number == tools.back().number; });
+    if (again) errors.Add(field + ".number", fmt::format("= {}; another tool has it", tools.back().number));
+  }
+  if (tools.size() > 1 && !request.region_overrides().empty())
+    errors.Add("region_overrides", "is set with several tools; regions are those of one tool");
+  return tools;
+}
+
+// The request as a job of its smallest tool: set-up, tool, tolerance, stock to leave, floor, strategy.
+Job ReadJob(const v1::VerifyProgramRequest& request, const std::vector<Tool>& tools, FieldErrors& errors) {
   Job job;
   Operation& op = job.operation;
   job.setup = FromProto(request.setup(), "setup", errors);
-  if (request.tools().empty()) {
-    errors.Missing("tools");
-  } else {
-    op.tool = FromProto(request.tools(0), "tools[0]", CuttingData::kOptional, errors);
+  if (!tools.empty()) {
+    op.tool = *std::min_element(tools.begin(), tools.end(),
+                                [](const Tool& a, const Tool& b) { return BallRadius(a) < BallRadius(b); });
   }
-  if (request.tools_size() > 1) errors.NotYet("tools[1]", "send the one tool of the program");
   const double radius = BallRadius(op.tool);
   op.tolerance = request.tolerance_mm();
   Require(errors, "tolerance_mm", op.tolerance,
@@ -80,9 +107,25 @@ Job ReadJob(const v1::VerifyProgramRequest& request, FieldErrors& errors) {
   job.dialect = ReadDialect(request.dialect(), request.post_file(), "", errors);
   if (request.has_control_deviation_mm())
     job.control_deviation = ReadControlDeviation(request.control_deviation_mm(), "", errors);
+  if (request.has_machine_z_safe_mm()) {
+    constexpr double kMost = limits::kMaxCoordinateMm;
+    Require(errors, "machine_z_safe_mm", request.machine_z_safe_mm(),
+            request.machine_z_safe_mm() >= -kMost && request.machine_z_safe_mm() <= 0.0,
+            fmt::format("in [{}, 0]", -kMost));
+  }
   job.work_offset.clear();  // a program that is only verified may use any
   return job;
 }
+
+struct Answer {
+  v1::Report report;
+  std::string leftover_csv, leftover_png;
+};
+
+struct VerifyJob {
+  std::vector<Tool> tools;
+  Job job;  // of the smallest tool
+};
 
 // COMPLETE means that the finish was checked, too, and that there was something to finish.
 v1::Outcome Judge(const v1::Report& report, bool nothing_to_finish) {
@@ -105,41 +148,151 @@ int RetractCount(const ProgramMotion& motion) {
   return count;
 }
 
-absl::Status Make(const Call& call, const v1::VerifyProgramRequest& request, Job job, const RunContext& run,
-                  v1::Report* report) {
+// The program, and how it is read.
+struct ProgramText {
+  std::string_view text;
+  ReaderParams params;
+};
+
+ProgramText TextOf(const v1::VerifyProgramRequest& request, const Job& job, std::size_t tools,
+                   const RunContext& run) {
+  constexpr double kMachineZSafe = -10.0;  // mm
+  ProgramText program;
+  program.text = request.program();
+  program.params.run = &run;
+  program.params.dialect = job.dialect;
+  program.params.control_deviation = job.control_deviation;
+  program.params.assume_exact_path = request.assume_exact_path();
+  program.params.machine_z_safe = request.has_machine_z_safe_mm()
+                                      ? request.machine_z_safe_mm()
+                                      : std::min(kMachineZSafe, job.dialect.machine_top);
+  program.params.several_tools = tools > 1;
+  return program;
+}
+
+absl::StatusOr<ProgramMotion> Read(const ProgramText& program) {
+  absl::StatusOr<ProgramMotion> motion = ReadProgram(program.text, program.params);
+  if (motion.ok() || motion.status().code() != absl::StatusCode::kInvalidArgument) return motion;
+  return ProgramUnreadableError("program: " + std::string(motion.status().message()));
+}
+
+// What all parts of the program are judged by.
+struct Judging {
+  const Surface& surface;
+  const std::vector<Tool>& tools;
+  const Job& job;  // of any of the tools
+  bool with_scallop = false, with_map = false;
+  const RunContext& run;
+};
+
+// One tool's moves.
+absl::StatusOr<VerifyReport> JudgeTool(const Judging& by, const Tool& tool, const ProgramMotion& motion) {
+  Job job = by.job;
+  job.operation.tool = tool;
+  PM_ASSIGN_OR_RETURN(const Resolved resolved, Resolve(by.surface, job, by.run));
+  PM_ASSIGN_OR_RETURN(const std::vector<PlanPart> parts, VerifiedParts(by.surface, job, resolved, by.run));
+  VerifyParams params = MakeVerifyParams(job, resolved, parts);
+  params.sample_leftover = by.with_map;
+  if (!by.with_scallop) {
+    params.finish.scallop.reset();
+    for (FinishPart& part : params.parts) part.finish.scallop.reset();
+  }
+  PM_ASSIGN_OR_RETURN(VerifyReport report, Verify(by.surface, tool, motion, params, by.run));
+  PM_ASSIGN_OR_RETURN(const Diagnostics beside,
+                      FindToolBesidePart(by.surface, TipsOf(motion, resolved.program_zero), resolved.radius,
+                                         resolved.program_zero, by.run));
+  report.findings.insert(report.findings.begin(), beside.begin(), beside.end());
+  return report;
+}
+
+// The tool that a number of the program stands for. The first one is in the spindle before any tool change.
+absl::StatusOr<const Tool*> ToolOf(const Judging& by, int number, const ProgramMotion& motion) {
+  if (by.tools.size() == 1 || number < 0) return &by.tools.front();
+  for (const Tool& tool : by.tools) {
+    if (tool.number == number) return &tool;
+  }
+  const auto first = std::find_if(motion.moves.begin(), motion.moves.end(),
+                                  [&](const ProgramMove& move) { return move.tool == number; });
+  std::string numbers;
+  for (const Tool& tool : by.tools) numbers += fmt::format("{}{}", numbers.empty() ? "" : ", ", tool.number);
+  return ProgramUnreadableError(
+      fmt::format("program: line {}: tool {} moves, but the tools are {}; state this one, too", first->line,
+                  number, numbers));
+}
+
+absl::StatusOr<VerifyReport> JudgeMotion(const Judging& by, const ProgramMotion& motion) {
+  const std::vector<int> numbers = ToolsOf(motion);
+  if (by.tools.size() == 1 || numbers.size() < 2) {
+    PM_ASSIGN_OR_RETURN(const Tool* tool, ToolOf(by, numbers.empty() ? -1 : numbers.front(), motion));
+    return JudgeTool(by, *tool, motion);
+  }
+  std::vector<PartReport> parts;
+  for (const int number : numbers) {
+    PM_ASSIGN_OR_RETURN(const Tool* tool, ToolOf(by, number, motion));
+    const ProgramMotion own = MovesOfTool(motion, number);
+    PM_ASSIGN_OR_RETURN(VerifyReport report, JudgeTool(by, *tool, own));
+    if (number < 0) {
+      report.findings.push_back(
+          MakeWarning("TOOL_ASSUMED",
+                      fmt::format("line {}: tool {} is taken to be in the spindle before the first M6",
+                                  own.moves.front().line, tool->number),
+                      {.line = own.moves.front().line}));
+    }
+    parts.push_back(
+        {number < 0 ? "the tool before the first M6" : fmt::format("tool {}", number), std::move(report)});
+  }
+  return JoinReports(std::move(parts), PartsOfProgram::kTools);
+}
+
+// Both ways of running lines with /, if there are any.
+absl::StatusOr<VerifyReport> JudgeWays(const Judging& by, const ProgramMotion& motion, ProgramText program) {
+  PM_ASSIGN_OR_RETURN(VerifyReport run, JudgeMotion(by, motion));
+  if (!motion.has_deletable_lines) return run;
+  program.params.run_deletable_lines = false;
+  PM_ASSIGN_OR_RETURN(const ProgramMotion without, Read(program));
+  PM_ASSIGN_OR_RETURN(VerifyReport skipped, JudgeMotion(by, without));
+  std::vector<PartReport> ways;
+  ways.push_back({"with the lines of / run", std::move(run)});
+  ways.push_back({"with the lines of / skipped", std::move(skipped)});
+  VerifyReport joined = JoinReports(std::move(ways), PartsOfProgram::kWays);
+  joined.findings.push_back(
+      MakeInfo("DELETABLE_LINES",
+               "lines with / are judged all run and all skipped; switching between them is not judged"));
+  return joined;
+}
+
+void FillFromMotion(const ProgramMotion& motion, v1::Report* report) {
+  report->mutable_setup_sheet()->set_tool_number(motion.tool_number);
+  report->mutable_setup_sheet()->clear_clearance_z_mm();
+  report->set_point_count(static_cast<int>(motion.moves.size()));
+  report->set_retract_count(RetractCount(motion));
+  if (std::isfinite(motion.controller_tolerance))
+    report->set_controller_tolerance_mm(motion.controller_tolerance);
+  report->set_time_basis("not estimated");
+}
+
+absl::Status Make(const Call& call, const v1::VerifyProgramRequest& request, const VerifyJob& what,
+                  const RunContext& run, Answer* answer) {
+  v1::Report* report = &answer->report;
+  Job job = what.job;
   run.Progress("model", 0.0);
   PM_ASSIGN_OR_RETURN(LoadedModel model, LoadModel(request.source(), "source", run, &call.env->in_flight));
   PM_RETURN_IF_ERROR(RequireSound(model));
   PM_RETURN_IF_ERROR(run.Check());
-  absl::StatusOr<ProgramMotion> motion = ReadProgram(
-      request.program(), {.run = &run, .dialect = job.dialect, .control_deviation = job.control_deviation});
-  if (!motion.ok()) {
-    if (motion.status().code() != absl::StatusCode::kInvalidArgument) return motion.status();
-    return ProgramUnreadableError("program: " + std::string(motion.status().message()));
-  }
+  const ProgramText program = TextOf(request, job, what.tools.size(), run);
+  PM_ASSIGN_OR_RETURN(const ProgramMotion motion, Read(program));
   PM_RETURN_IF_ERROR(run.Check());
   PM_ASSIGN_OR_RETURN(UprightModel upright, MakeUpright(std::move(model), job.setup, run));
   job.setup = std::move(upright.setup);
   PM_ASSIGN_OR_RETURN(const Surface surface,
                       BuildPlacedSurface(std::move(upright.model.model), job.setup, run));
   PM_ASSIGN_OR_RETURN(const Resolved resolved, Resolve(surface, job, run));
-  PM_ASSIGN_OR_RETURN(const std::vector<PlanPart> parts, VerifiedParts(surface, job, resolved, run));
-  VerifyParams params = MakeVerifyParams(job, resolved, parts);
-  if (!request.has_scallop_mm()) {
-    params.finish.scallop.reset();
-    for (FinishPart& part : params.parts) part.finish.scallop.reset();
-  }
-  PM_ASSIGN_OR_RETURN(const VerifyReport verify, Verify(surface, job.operation.tool, *motion, params, run));
+  const Judging by{surface, what.tools, job, request.has_scallop_mm(), request.leftover_map(), run};
+  PM_ASSIGN_OR_RETURN(const VerifyReport verify, JudgeWays(by, motion, program));
   FillFromVerifier(verify, resolved.program_zero, request.has_scallop_mm(), report);
   report->set_outcome(Judge(*report, verify.NothingToFinish()));
   *report->mutable_setup_sheet() = ToProto(resolved, job);
-  report->mutable_setup_sheet()->set_tool_number(motion->tool_number);
-  report->mutable_setup_sheet()->clear_clearance_z_mm();
-  report->set_point_count(static_cast<int>(motion->moves.size()));
-  report->set_retract_count(RetractCount(*motion));
-  if (std::isfinite(motion->controller_tolerance))
-    report->set_controller_tolerance_mm(motion->controller_tolerance);
-  report->set_time_basis("not estimated");
+  FillFromMotion(motion, report);
   if (!request.has_scallop_mm()) {
     AddDiagnostics(
         {MakeWarning("FINISH_NOT_CHECKED",
@@ -149,12 +302,26 @@ absl::Status Make(const Call& call, const v1::VerifyProgramRequest& request, Job
   }
   AddDiagnostics(HeaderRemarks(upright.model.remarks), resolved.program_zero, report->mutable_diagnostics());
   AddDiagnostics(WallsWithoutSide(surface), resolved.program_zero, report->mutable_diagnostics());
-  PM_ASSIGN_OR_RETURN(const Diagnostics beside,
-                      FindToolBesidePart(surface, TipsOf(*motion, resolved.program_zero), resolved.radius,
-                                         resolved.program_zero, run));
-  AddDiagnostics(beside, resolved.program_zero, report->mutable_diagnostics());
   AddDiagnostics(verify.findings, resolved.program_zero, report->mutable_diagnostics());
+  if (!request.leftover_map()) return absl::OkStatus();
+  constexpr double kLimit = 0.1;  // mm, of the colours where no scallop is given
+  const double limit = request.has_scallop_mm() ? request.scallop_mm() + request.tolerance_mm() : kLimit;
+  answer->leftover_csv = LeftoverCsv(verify.leftover_map, resolved.program_zero);
+  answer->leftover_png = LeftoverPng(verify.leftover_map, limit);
   return absl::OkStatus();
+}
+
+bool SendFile(const char* name, const char* media_type, std::string_view bytes, const Sink<Response>& sink) {
+  for (std::size_t at = 0; at < bytes.size(); at += limits::kChunkBytes) {
+    Response response;
+    v1::ArtifactChunk& chunk = *response.mutable_artifact();
+    chunk.set_name(name);
+    chunk.set_media_type(media_type);
+    chunk.set_offset_bytes(static_cast<std::int64_t>(at));
+    chunk.set_data(std::string(bytes.substr(at, limits::kChunkBytes)));
+    if (!sink(response)) return false;
+  }
+  return true;
 }
 
 }  // namespace
@@ -164,7 +331,9 @@ absl::Status HandleVerifyProgram(const Call& call, const v1::VerifyProgramReques
   PM_RETURN_IF_ERROR(RefuseUnknownFields(request));
   PM_RETURN_IF_ERROR(CheckThreads(request.max_threads(), "max_threads"));
   FieldErrors errors;
-  const Job job = ReadJob(request, errors);
+  VerifyJob what;
+  what.tools = ReadTools(request, errors);
+  what.job = ReadJob(request, what.tools, errors);
   PM_RETURN_IF_ERROR(errors.ToStatus());
   const auto beat = [&](std::string_view stage, double fraction) {
     Response response;
@@ -172,10 +341,15 @@ absl::Status HandleVerifyProgram(const Call& call, const v1::VerifyProgramReques
     response.mutable_progress()->set_fraction(fraction);
     return sink(response);
   };
-  Response last;
+  Answer answer;
   PM_RETURN_IF_ERROR(RunJobThread(call, request.max_threads(), beat, [&](const RunContext& run) {
-    return Make(call, request, job, run, last.mutable_report());
+    return Make(call, request, what, run, &answer);
   }));
+  const bool sent = SendFile("leftover.csv", "text/csv", answer.leftover_csv, sink) &&
+                    SendFile("leftover.png", "image/png", answer.leftover_png, sink);
+  if (!sent) return absl::CancelledError("the client has gone");
+  Response last;
+  *last.mutable_report() = std::move(answer.report);
   return sink(last) ? absl::OkStatus() : absl::CancelledError("the client has gone");
 }
 

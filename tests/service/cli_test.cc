@@ -239,6 +239,37 @@ TEST_F(Cli, UnitsAndArcsAreReadAsAControlReadsThem) {
   EXPECT_THAT(arc.out, AllOf(HasSubstr("WARNING ARC_MODE_ASSUMED: line 10: "), HasSubstr("G91.1")));
 }
 
+// A verdict under assumptions says so.
+TEST_F(Cli, VerifyNamesItsAssumptionsAndTakesThoseOfTheUser) {
+  const std::string silent = in_.Write("silent.ngc",
+                                       "G53 G0 Z-5\nT1 M6\nS9000 M3\nG0 X0 Y6\nZ9\nG1 Z7 F300\nX12 F900\n"
+                                       "G0 Z9\nM5\nG91 G28 Z0\nM2\n");
+  const auto verify = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> words = {"verify", bump_, silent, "--no-finish"};
+    words.insert(words.end(), more.begin(), more.end());
+    return Patchmill(words);
+  };
+  const std::vector<std::string> tool = {"--tool-diameter", "6"};
+  const Finished open = verify(tool);
+  EXPECT_EQ(open.status, 1);
+  EXPECT_THAT(open.out, AllOf(HasSubstr("CONTROL_SMOOTHING"), HasSubstr("PATH_MODE_ASSUMED: line 6")));
+  const Finished exact =
+      verify({"--tool", "1=6", "--assume", "path=exact", "--tolerance-map", out_ / "left.png"});
+  EXPECT_THAT(Slurp(out_ / "left.csv"), HasSubstr("x_mm,y_mm,z_mm,leftover_mm,patch\n"));
+  EXPECT_THAT(Slurp(out_ / "left.png"), HasSubstr("IHDR"));
+  EXPECT_EQ(exact.status, 0) << exact.out << exact.err;
+  EXPECT_THAT(exact.out, HasSubstr("only under MACHINE_Z_ASSUMED, UNITS_ASSUMED, DISTANCE_MODE_ASSUMED, "
+                                   "WORK_OFFSET_ASSUMED, LENGTH_OFFSET_ASSUMED, PATH_MODE_ASSUMED, "
+                                   "REFERENCE_ASSUMED"));
+  const Finished low = verify({"--tool-diameter", "6", "--machine-z-safe", "-4"});
+  EXPECT_EQ(low.status, 2);
+  EXPECT_THAT(low.err, HasSubstr("line 1: G53 with Z below machine Z-4"));
+  EXPECT_EQ(verify({"--assume", "path=smooth"}).status, 2);
+  EXPECT_THAT(verify({}).err, HasSubstr("--tool-diameter is missing"));
+  EXPECT_THAT(verify({"--tool", "6"}).err, HasSubstr("must be NUMBER=DIAMETER"));
+  EXPECT_THAT(verify({"--tool", "1=6", "--tool", "1=4"}).err, HasSubstr("another tool has it"));
+}
+
 // The share that is not reached is that of the report.
 TEST_F(Cli, MillSaysHowMuchIsNotReached) {
   const Finished whole = Mill(bump_, {"--quiet"});

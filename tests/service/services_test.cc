@@ -1,6 +1,9 @@
 // CheckModel, SplitRegions, VerifyProgram, health, limits and draining, through the wire.
+#include <cmath>
+#include <cstdio>
 #include <future>
 #include <set>
+#include <sstream>
 #include <thread>
 #include <vector>
 
@@ -365,6 +368,144 @@ TEST_F(VerifyProgram, MovesBeyondTheLimitsAreFoundWithTheirLines) {
   EXPECT_EQ(last_.report().reachable_area_mm2() + last_.report().unreachable_area_mm2(), 0.0);
 }
 
+std::vector<std::string> AssumptionsOf(const v1::Report& report) {
+  return {report.assumption_codes().begin(), report.assumption_codes().end()};
+}
+
+TEST_F(VerifyProgram, TheVerdictNamesWhatItAssumes) {
+  ASSERT_TRUE(Verify().ok());
+  EXPECT_THAT(AssumptionsOf(last_.report()), ::testing::IsEmpty());
+  const std::string stated = request_.program();
+  const auto outcome_of = [&](const std::string& path) {
+    std::string program = stated;
+    program.replace(program.find("G64 P0.001\n"), 11, path);
+    request_.set_program(program);
+    EXPECT_TRUE(Verify().ok());
+    return last_.report().outcome();
+  };
+  EXPECT_EQ(outcome_of("G61\n"), v1::OUTCOME_NO_GOUGE_FOUND);
+  EXPECT_EQ(outcome_of("G64\n"), v1::OUTCOME_VERIFICATION_FAILED);
+  EXPECT_EQ(outcome_of(""), v1::OUTCOME_VERIFICATION_FAILED) << "no better than a bare G64";
+  EXPECT_THAT(AssumptionsOf(last_.report()), ::testing::ElementsAre("PATH_MODE_ASSUMED"));
+  request_.set_assume_exact_path(true);
+  EXPECT_EQ(outcome_of(""), v1::OUTCOME_NO_GOUGE_FOUND);
+  EXPECT_THAT(AssumptionsOf(last_.report()), ::testing::ElementsAre("PATH_MODE_ASSUMED"));
+  EXPECT_EQ(outcome_of("G64\n"), v1::OUTCOME_VERIFICATION_FAILED) << "it is stated";
+}
+
+TEST_F(VerifyProgram, ReferenceReturnsAreJudgedInTheModeInForce) {
+  const std::string start = request_.program();
+  const auto outcome_of = [&](const std::string& end) {
+    std::string program = start;
+    program.replace(program.rfind("G53 G0 Z0"), 9, end);
+    request_.set_program(program);
+    EXPECT_TRUE(Verify().ok()) << end;
+    return last_.report().outcome();
+  };
+  EXPECT_EQ(outcome_of("G91 G28 Z0"), v1::OUTCOME_NO_GOUGE_FOUND);
+  EXPECT_THAT(AssumptionsOf(last_.report()), ::testing::ElementsAre("REFERENCE_ASSUMED"));
+  EXPECT_EQ(outcome_of("G90 G28 Z0"), v1::OUTCOME_VERIFICATION_FAILED) << "through the part";
+  EXPECT_EQ(outcome_of("G53 G0 Z-5"), v1::OUTCOME_NO_GOUGE_FOUND);
+  EXPECT_THAT(AssumptionsOf(last_.report()), ::testing::ElementsAre("MACHINE_Z_ASSUMED"));
+  request_.set_machine_z_safe_mm(-2);
+  EXPECT_THAT(Verify(), RpcStatusIs(StatusCode::INVALID_ARGUMENT, HasSubstr("line 12: G53 with Z below")));
+  EXPECT_EQ(outcome_of("G53 G0 Z-2"), v1::OUTCOME_NO_GOUGE_FOUND);
+}
+
+// Either way of running the lines of / must be good.
+TEST_F(VerifyProgram, DeletableLinesAreJudgedRunAndSkipped) {
+  const std::string plain = request_.program();
+  const auto findings_of = [&](const std::string& from, const std::string& to) {
+    std::string program = plain;
+    program.replace(program.find(from), from.size(), to);
+    request_.set_program(program);
+    EXPECT_TRUE(Verify().ok()) << to;
+    std::string text;
+    for (const v1::Diagnostic& d : last_.report().diagnostics()) {
+      if (d.severity() == v1::SEVERITY_ERROR || d.code() == "DELETABLE_LINES")
+        text += d.code() + " " + d.message() + "\n";
+    }
+    return text;
+  };
+  EXPECT_EQ(findings_of("M9\n", "M9\n"), "");
+  EXPECT_THAT(findings_of("M9\n", "/M9\n"), ::testing::StartsWith("DELETABLE_LINES"));
+  EXPECT_EQ(last_.report().outcome(), v1::OUTCOME_NO_GOUGE_FOUND);
+  const std::string run = findings_of("G1 X13", "/G1 Z0\nG1 X13");
+  EXPECT_THAT(run, AllOf(HasSubstr("GOUGE line 11"), HasSubstr(" (with the lines of / run)")));
+  EXPECT_EQ(last_.report().outcome(), v1::OUTCOME_VERIFICATION_FAILED);
+  const std::string skipped = findings_of("G1 X13", "G1 Z0\n/G1 Z9\nG1 X13");
+  EXPECT_THAT(skipped, HasSubstr(" (with the lines of / skipped)"));
+  EXPECT_EQ(last_.report().outcome(), v1::OUTCOME_VERIFICATION_FAILED);
+}
+
+TEST_F(VerifyProgram, EachToolIsJudgedByItsOwnMoves) {
+  request_.set_program(
+      "G21 G90 G17 G54 G61\nG53 G0 Z0\nT1 M6\nG43 H1\nS9000 M3\nG0 X-1 Y6\nG0 Z9\nG1 Z7 F400\nG1 X13 F900\n"
+      "G0 Z9\nG53 G0 Z0\nT2 M6\nG43 H2\nS9000 M3\nG0 X-1 Y6\nG0 Z9\nG1 Z4 F400\nG1 X13 F900\nG0 Z9\n"
+      "G53 G0 Z0\nM5\nM9\nM2\n");
+  EXPECT_THAT(Verify(),
+              RpcStatusIs(StatusCode::INVALID_ARGUMENT, HasSubstr("line 12: M6: tool 2 after tool 1")));
+  v1::Tool second = request_.tools(0);
+  second.set_number(3);
+  second.mutable_ball_end()->set_diameter_mm(2);
+  *request_.add_tools() = second;
+  EXPECT_THAT(Verify(), RpcStatusIs(StatusCode::INVALID_ARGUMENT, HasSubstr("line 15: tool 2 moves")));
+  request_.mutable_tools(1)->set_number(2);
+  ASSERT_TRUE(Verify().ok());
+  const auto text = [&] {
+    std::string all;
+    for (const v1::Diagnostic& d : last_.report().diagnostics()) all += d.code() + " " + d.message() + "\n";
+    return all;
+  };
+  EXPECT_EQ(last_.report().outcome(), v1::OUTCOME_NO_GOUGE_FOUND) << text();
+  EXPECT_THAT(text(), HasSubstr("FINISH_OF_TOOL the finish is that of tool 2"));
+  EXPECT_NEAR(last_.report().cut_length_mm(), 2 * (14.0 + 2.0) + 3.0, 1e-6);
+  // A tip at Z3 is deep in the bump; the finding names the tool.
+  std::string program = request_.program();
+  program.replace(program.find("G1 Z4"), 5, "G1 Z0");
+  request_.set_program(program);
+  ASSERT_TRUE(Verify().ok());
+  EXPECT_EQ(last_.report().outcome(), v1::OUTCOME_VERIFICATION_FAILED);
+  EXPECT_THAT(text(), AllOf(HasSubstr("GOUGE line 18"), HasSubstr("(tool 2)")));
+  EXPECT_THAT(text(), ::testing::Not(HasSubstr("(tool 1)")));
+}
+
+TEST_F(VerifyProgram, TheLeftoverMapCoversThePart) {
+  request_.set_leftover_map(true);
+  request_.set_scallop_mm(0.05);
+  request_.set_floor_z_mm(-1);  // then the ball reaches every place
+  grpc::ClientContext context;
+  const auto reader = embedded_.toolpath->VerifyProgram(&context, request_);
+  v1::VerifyProgramResponse response;
+  std::string csv, png;
+  while (reader->Read(&response)) {
+    if (!response.has_artifact()) continue;
+    (response.artifact().name() == "leftover.csv" ? csv : png) += response.artifact().data();
+  }
+  ASSERT_TRUE(reader->Finish().ok());
+  ASSERT_TRUE(response.has_report()) << "the report is the last event";
+  EXPECT_EQ(png.substr(1, 3), "PNG");
+  std::istringstream lines(csv);
+  std::string line;
+  std::getline(lines, line);
+  EXPECT_EQ(line, "x_mm,y_mm,z_mm,leftover_mm,patch");
+  double most = 0.0;
+  int count = 0;
+  while (std::getline(lines, line)) {
+    double x = 0, y = 0, z = 0, left = 0;
+    int patch = -1;
+    ASSERT_EQ(std::sscanf(line.c_str(), "%lf,%lf,%lf,%lf,%d", &x, &y, &z, &left, &patch), 5) << line;
+    EXPECT_EQ(patch, 0);
+    // The only cut is the line from X-1 to X13 at Y6; its ball's centre is at Z10.
+    const double to_line = std::hypot(std::max({-1.0 - x, 0.0, x - 13.0}), y - 6.0, z - 10.0);
+    EXPECT_NEAR(left, to_line - 3.0, 1e-3) << line;
+    most = std::max(most, left);
+    ++count;
+  }
+  EXPECT_GT(count, 1000);
+  EXPECT_NEAR(most, response.report().max_leftover_mm(), 0.3);
+}
+
 TEST_F(VerifyProgram, AWordThatCouldMoveIsAnErrorWithItsLine) {
   request_.set_program("G21\nG90\nG5.1 X1 Y1\n");
   const grpc::Status status = Verify();
@@ -382,7 +523,14 @@ TEST_F(VerifyProgram, WrongFields) {
     return status.error_message();
   };
   EXPECT_THAT(message([](auto& r) { r.clear_tools(); }), HasSubstr("tools is missing"));
-  EXPECT_THAT(message([](auto& r) { *r.add_tools() = r.tools(0); }), HasSubstr("tools[1] is not there yet"));
+  EXPECT_THAT(message([](auto& r) { *r.add_tools() = r.tools(0); }),
+              HasSubstr("tools[1].number = 1; another tool has it"));
+  EXPECT_THAT(message([](auto& r) {
+                for (int i = 0; i < 20; ++i) *r.add_tools() = r.tools(0);
+              }),
+              HasSubstr("tools has 21; at most 20"));
+  EXPECT_THAT(message([](auto& r) { r.set_machine_z_safe_mm(1); }),
+              HasSubstr("machine_z_safe_mm = 1; must be in [-100000, 0]"));
   EXPECT_THAT(message([](auto& r) { r.clear_program(); }), HasSubstr("program is missing"));
   EXPECT_THAT(message([](auto& r) { r.clear_tolerance_mm(); }), HasSubstr("tolerance_mm = 0"));
   EXPECT_THAT(message([](auto& r) { r.set_scallop_mm(4); }),
