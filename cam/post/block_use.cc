@@ -37,8 +37,8 @@ absl::Status CheckUse(const BlockModes& block, int motion_code, const Dialect& d
   if (block['D'] && block.compensation.value_or(400) == 400) return Bad("D without G41 or G42");
   if (dwell && (!block['P'] || smooth || HasAxis(block))) return Bad("G4 needs P and no coordinates");
   if (HasCenter(block) && !IsArc(mode) && !cycle) return Bad("I, J, K or R without G2 or G3");
-  const bool reference = block.once == 280 || block.once == 300;
-  if (HasAxis(block) && mode == 800 && !reference) return Bad("coordinates while no motion is in force");
+  if (HasAxis(block) && mode == 800 && !IsReference(block))
+    return Bad("coordinates while no motion is in force");
   for (const char letter : {'F', 'P', 'Q', 'H', 'S', 'T', 'D', 'L'}) {
     if (block[letter] && *block[letter] < 0.0) return Bad(fmt::format("{} is negative", letter));
   }

@@ -13,6 +13,11 @@ inline bool IsArc(int motion_code) { return motion_code == 20 || motion_code == 
 inline bool IsCycle(int motion_code) {
   return motion_code == 730 || (motion_code >= 810 && motion_code <= 830);
 }
+// G28 or G30.
+inline bool IsReference(const BlockModes& block) {
+  const int code = block.once.value_or(0);
+  return code == 280 || code == 300;
+}
 inline bool HasAxis(const BlockModes& block) { return block['X'] || block['Y'] || block['Z']; }
 inline bool HasCenter(const BlockModes& block) {
   return block['I'] || block['J'] || block['K'] || block['R'];

@@ -566,7 +566,7 @@ absl::Status Interpreter::Run(const BlockModes& block, int line) {
   const bool stated = (arc || cycle) && block.motion.has_value();
   if (block.once == 530) {
     PM_RETURN_IF_ERROR(Home(block));
-  } else if (block.once == 280 || block.once == 300) {
+  } else if (IsReference(block)) {
     PM_RETURN_IF_ERROR(Reference(block));
   } else if (HasAxis(block) || (HasCenter(block) && !cycle) || stated) {
     if (motion_mode_ != 0) PM_RETURN_IF_ERROR(CheckFeed());

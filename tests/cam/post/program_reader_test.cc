@@ -276,8 +276,9 @@ TEST(ProgramReader, LimitsHold) {
 TEST(ProgramReader, RandomBytesAndMutations) {
   const std::string seed =
       "%\nG21 G90 G17\nG53 G0 Z0\nT1 M6\nG43 H1\nG0 X1.5 Y-2\nZ5\nG1 Z-1 F100\nG2 X3.5 Y2 I1 J2\nG3 X1 "
-      "R5\n(c)\nM30\n";
-  const std::string alphabet = "GXYZIJKRFMTSPQN0123456789.-+()%;#[]oO \n/*=";
+      "R5\n(c)\n/G99 G83 X4 Y1 R2 Z-1 Q1\nX5\nG80\nG2 I2 P3\nG1 X[1+2*SQRT[4]]\nG91 G28 Z0\nG90\nG53 G0 "
+      "X0\nM30\n";
+  const std::string alphabet = "GXYZIJKRFMTSPQNDL0123456789.-+()%;#[]oO \n/*=";
   std::mt19937 random(5);
   ReaderParams params;
   params.max_moves = 10000;
