@@ -106,6 +106,32 @@ void AddNames(const std::vector<std::string>& names, Canonical& out) {
 
 // Adds the limits that are set, each under its name. A job without any of them keeps the digest that it had
 // before they existed.
+// The stock beyond its top and its allowance.
+void AddStock(const Setup& setup, Canonical& out) {
+  if (setup.allowance_stated) out.Add("allowance stated");
+  if (const auto* block = std::get_if<BlockStock>(&setup.stock_body)) out.Add("block").Add(block->margin);
+  if (const auto* outline = std::get_if<OutlineStock>(&setup.stock_body)) {
+    out.Add("outline");
+    AddRing(outline->outline, out);
+  }
+  if (const auto* cylinder = std::get_if<CylinderStock>(&setup.stock_body)) {
+    out.Add("cylinder").Add(cylinder->diameter);
+    if (cylinder->center) out.Add(cylinder->center->x()).Add(cylinder->center->y());
+  }
+}
+
+// Leads, links and their feeds.
+void AddMotion(const Operation& op, Canonical& out) {
+  const Operation usual;
+  if (op.high_rapids) out.Add("high rapids");
+  if (op.lead_radius) out.Add("lead radius").Add(*op.lead_radius);
+  if (op.lead_sweep != usual.lead_sweep) out.Add("lead sweep").Add(op.lead_sweep);
+  if (op.plunge_angle != usual.plunge_angle) out.Add("plunge angle").Add(op.plunge_angle);
+  if (op.link_feed) out.Add("link feed").Add(*op.link_feed);
+  if (op.lead_feed) out.Add("lead feed").Add(*op.lead_feed);
+  if (op.accept_depth != 0.0) out.Add("accept depth").Add(op.accept_depth);
+}
+
 void AddLimits(const Job& job, Canonical& out) {
   const Selection& s = job.operation.selection;
   if (!s.patches.empty()) {
@@ -135,7 +161,8 @@ void AddLimits(const Job& job, Canonical& out) {
   if (job.setup.up_auto) out.Add("up auto");
   if (!job.setup.up_face.empty()) out.Add("up face").Add(job.setup.up_face);
   if (job.operation.one_way) out.Add("one way");
-  if (job.operation.low_rapids) out.Add("low rapids");
+  AddStock(job.setup, out);
+  AddMotion(job.operation, out);
   if (job.operation.spirals) out.Add("spirals");
   if (!job.operation.border_passes) out.Add("no border passes");
   if (!job.operation.round_lines) out.Add("no round lines");

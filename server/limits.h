@@ -80,6 +80,7 @@ inline constexpr double kMinDiameterMm = 0.02, kMaxDiameterMm = 1000.0;
 inline constexpr double kMinToleranceMm = 1e-4;
 inline constexpr double kMaxLeaveMm = 100.0;
 inline constexpr double kMaxAllowanceMm = 100.0;
+inline constexpr double kMaxStockMarginMm = 10000.0, kMaxDepthMm = 1000.0;
 inline constexpr double kMaxApproachGapMm = 100.0;
 inline constexpr double kMaxClearanceAboveMm = 1e4;
 inline constexpr double kMaxCoordinateMm = 1e5;

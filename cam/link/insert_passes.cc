@@ -59,9 +59,10 @@ std::vector<Gap> GapsFor(const std::vector<CutterPath>& passes, std::size_t whic
   return gaps;
 }
 
-// Time of the link from one pass to another, s.
+// Cost of the link from one pass to another, s.
 double LinkTime(const LinkMaker& maker, const CutterPath& from, const CutterPath& to) {
-  return TimeOf(EndOf(from).center, LinkTo(maker, EndOf(from), to));
+  const PassEnd end = PassEnd::End(from);
+  return CostOf(maker, end, LinkTo(maker, end, to));
 }
 
 }  // namespace
@@ -74,13 +75,15 @@ absl::StatusOr<std::vector<CutterPath>> InsertPasses(const LinkMaker& maker, std
     PM_RETURN_IF_ERROR(run.Check());
     if (!IsShort(passes[i], longest)) continue;
     const CutterPath& before = passes[i - 1];
-    const std::vector<Move> in = LinkTo(maker, EndOf(before), passes[i]);
-    if (std::none_of(in.begin(), in.end(), [](const Move& m) { return m.kind == MoveKind::kRapid; }))
+    const PassEnd end = PassEnd::End(before);
+    const Link in = LinkTo(maker, end, passes[i]);
+    if (std::none_of(in.moves.begin(), in.moves.end(),
+                     [](const Move& m) { return m.kind == MoveKind::kRapid; }))
       continue;
     ++tried;
     run.Progress("link: on the way", static_cast<double>(i) / static_cast<double>(passes.size()));
-    // The time that is saved if the pass is removed from its place, s.
-    double least = TimeOf(EndOf(before).center, in);
+    // The cost that is saved if the pass is removed from its place, s.
+    double least = CostOf(maker, end, in);
     if (i + 1 < passes.size())
       least += LinkTime(maker, passes[i], passes[i + 1]) - LinkTime(maker, before, passes[i + 1]);
     std::optional<Gap> best;

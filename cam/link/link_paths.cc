@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "cam/link/insert_passes.h"
 #include "cam/link/link_moves.h"
@@ -16,13 +17,13 @@ namespace {
 // mm/min; machines differ. It is used to estimate times only.
 constexpr double kAssumedRapid = 5000.0;
 
-void AppendPass(const CutterPath& pass, int index, const LinkMaker& maker, const Surface& surface,
-                std::vector<Move>& moves) {
+void AppendPass(const CutterPath& pass, int index, const MoveCheck& check, std::vector<Move>& moves) {
+  const Surface& surface = check.locator().surface();
   const std::size_t count = pass.points.size() + (pass.closed ? 1 : 0);
   for (std::size_t i = 1; i < count; ++i) {
     const CutterPoint& from = pass.points[i - 1];
     const CutterPoint& to = pass.points[i % pass.points.size()];
-    Move move = maker.Feed(MoveKind::kCut, from.center, to.center);
+    Move move = check.Feed(MoveKind::kCut, from.center, to.center);
     move.region = pass.region;
     move.pass = index;
     if (to.contact) move.contact = {to.contact->p, surface.piece(to.contact->piece).patch};
@@ -36,9 +37,8 @@ LinkStats Measure(const std::vector<Move>& moves) {
     const Vec3 d = moves[i].to - moves[i - 1].to;
     const double length = d.norm();
     stats.time += EstimatedTime(moves[i], length);
-    const auto leaves = [](MoveKind kind) { return kind == MoveKind::kRetract || kind == MoveKind::kRapid; };
-    if (leaves(moves[i].kind) && !leaves(moves[i - 1].kind)) ++stats.retract_count;
     if (moves[i].kind == MoveKind::kRapid) {
+      if (moves[i - 1].kind != MoveKind::kRapid) ++stats.retract_count;
       stats.rapid_length += length;
       continue;
     }
@@ -87,25 +87,28 @@ absl::StatusOr<LinkResult> LinkPaths(const Locator& locator, const RegionMap& re
                                   run));
   const Locator stock_locator(locator.surface(), clear);
   const LinkMaker maker(locator, stock_locator, params, run);
+  const MoveCheck check(locator, stock_locator, params);
   PM_ASSIGN_OR_RETURN(result.passes, InsertPasses(maker, std::move(result.passes), params, run));
   std::vector<Move>& moves = result.toolpath.moves;
 
-  const CutterPoint* end = nullptr;  // where the last pass ended
+  double saved = 0.0;  // mm
+  const auto add = [&](Link link) {
+    for (Move& move : link.moves) moves.push_back(std::move(move));
+    result.leads.insert(result.leads.end(), link.leads.begin(), link.leads.end());
+    saved += link.saved_by_low_rapids;
+  };
   for (std::size_t i = 0; i < result.passes.size(); ++i) {
     PM_RETURN_IF_ERROR(run.Check());
     const CutterPath& pass = result.passes[i];
-    if (end == nullptr) {
-      maker.Approach(pass.points.front(), moves);
-    } else {
-      for (Move& move : LinkTo(maker, *end, pass)) moves.push_back(std::move(move));
-    }
-    AppendPass(pass, static_cast<int>(i), maker, locator.surface(), moves);
-    end = pass.closed ? &pass.points.front() : &pass.points.back();
+    add(i == 0 ? maker.Approach(PassEnd::Start(pass))
+               : LinkTo(maker, PassEnd::End(result.passes[i - 1]), pass));
+    AppendPass(pass, static_cast<int>(i), check, moves);
     run.Progress("link", static_cast<double>(i + 1) / static_cast<double>(result.passes.size()));
   }
-  if (end != nullptr) maker.Retract(*end, moves);
+  if (!result.passes.empty()) add(maker.Retract(PassEnd::End(result.passes.back())));
   PM_RETURN_IF_ERROR(run.Check());
   result.stats = Measure(moves);
+  result.stats.saved_by_low_rapids = saved;
   return result;
 }
 

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "cam/limits/containment.h"
@@ -29,6 +30,18 @@ struct ObstacleOutline {
   double top_z = 0.0, margin = 0.0;  // mm
 };
 
+struct NoStockBody {};
+struct BlockStock {
+  double margin = 0.0;  // mm, beside the box of the placed model
+};
+struct OutlineStock {
+  Ring outline;  // PROGRAM frame
+};
+struct CylinderStock {
+  double diameter = 0.0;       // mm
+  std::optional<Vec2> center;  // PROGRAM frame; default the middle of the box of the placed model
+};
+
 struct Setup {
   Placement placement;
   // Exactly what [machining M3] offers: a point of the placed model, or one of its box's named points.
@@ -37,12 +50,21 @@ struct Setup {
   Vec3 zero_point = Vec3::Zero();     // for kPoint, placed frame; default the model's own origin
   std::optional<double> stock_top_z;  // PROGRAM frame, default model top + allowance
   double allowance = 0.5;
+  // True if the client has stated the allowance. A body of the stock has then been cut down to it over the
+  // area that the surface covers as seen from above; else the body is whole.
+  bool allowance_stated = false;
+  std::variant<NoStockBody, BlockStock, OutlineStock, CylinderStock> stock_body = NoStockBody{};
   std::vector<ObstacleOutline> obstacles;
   // ChooseUp (cam/plan/choose_up.h) turns the placement once the model is known: the axis that shows most
   // points up, or the outer normal of a plane face. At most one is set.
   bool up_auto = false;
   std::string up_face = {};  // id
 };
+
+// True if the client has stated what stock there is.
+inline bool StockIsStated(const Setup& setup) {
+  return setup.allowance_stated || !std::holds_alternative<NoStockBody>(setup.stock_body);
+}
 
 // Which part of the model is cut. A patch is named by its id, or by "#" and its index (0-based, in the order
 // of the model).
@@ -105,7 +127,9 @@ struct RegionOverride {
   std::optional<double> zigzag_angle, scallop;  // absent: as the operation
   std::optional<bool> one_way;
 };
-inline constexpr double kPickReach = 1.0;          // mm
+inline constexpr double kPickReach = 1.0;  // mm
+inline constexpr double kMinLeadSweepDeg = 10.0, kMaxLeadSweepDeg = 90.0;
+inline constexpr double kMinPlungeAngleDeg = 1.0;  // the most is kDefaultPlungeAngle
 inline constexpr double kMaxZigzagBendDeg = 30.0;  // of Operation::zigzag_bend
 
 struct Operation {
@@ -131,8 +155,14 @@ struct Operation {
   std::optional<double> clearance_z, floor_z, top_z;
   std::optional<double> clearance_above;  // mm; kDefaultClearanceAbove when neither is given
   double approach_gap = 1.0;
-  // Rapids between passes as low as the stock allows; needs its allowance to be known, not assumed.
-  bool low_rapids = false;
+  // All rapids at the clearance plane. Else those between passes are as low as the stock allows, if it is
+  // stated (StockIsStated).
+  bool high_rapids = false;
+  std::optional<double> lead_radius;  // mm; default half the ball radius
+  double lead_sweep = 0.5 * kPi;      // rad
+  double plunge_angle = kDefaultPlungeAngle;
+  std::optional<double> link_feed, lead_feed;  // mm/min; default that of the tool
+  double accept_depth = 0.0;                   // mm; deeper cuts than it and the allowance end the job
   Selection selection;
   std::string regions_sha256;  // what `overrides` were made for; empty: not checked
   std::vector<RegionOverride> overrides;
@@ -154,7 +184,7 @@ struct Job {
   Diagnostics model_remarks;          // warnings from its reading, points as placed: they go into the report
 };
 
-enum class Outcome { kComplete, kCompleteWhereReachable, kNothingToCut, kVerificationFailed };
+enum class Outcome { kComplete, kCompleteWhereReachable, kNothingToCut, kVerificationFailed, kNeedsRoughing };
 
 struct StageTime {
   std::string name;
@@ -165,6 +195,7 @@ struct JobReport {
   Outcome outcome = Outcome::kNothingToCut;
   VerifyReport verify;
   LinkStats motion;
+  std::vector<LeadFigure> leads;
   double min_concave_radius = kInfinity;  // mm, smallest on the reachable side; infinity: none
   double controller_tolerance = 0.0;      // mm
   double least_cut_length = 0.0;  // mm: no passes of this finish are shorter together (LeastCutLength)

@@ -181,6 +181,8 @@ const char* Name(Outcome outcome) {
       return "NOTHING_TO_CUT";
     case Outcome::kVerificationFailed:
       return "VERIFICATION_FAILED";
+    case Outcome::kNeedsRoughing:
+      return "NEEDS_ROUGHING";
   }
   return "";
 }

@@ -1,6 +1,10 @@
 #include "cam/plan/resolve.h"
 
+#include <algorithm>
+#include <cmath>
+#include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include <fmt/format.h>
@@ -73,6 +77,43 @@ absl::StatusOr<Containment> ResolveContainment(const Surface& surface, const Job
   return c;
 }
 
+Ring CircleAround(const Vec2& center, double radius) {
+  constexpr int kCorners = 720;  // the polygon lies around the circle, by 1e-5 of its radius
+  Ring ring;
+  for (int k = 0; k < kCorners; ++k) {
+    const double angle = 2.0 * kPi * k / kCorners;
+    ring.push_back(center + radius / std::cos(kPi / kCorners) * Vec2(std::cos(angle), std::sin(angle)));
+  }
+  return ring;
+}
+
+// The outline of the stock in the placed frame.
+Ring StockOutline(const Setup& setup, const Box3& box, const Vec3& zero) {
+  if (const auto* block = std::get_if<BlockStock>(&setup.stock_body)) {
+    const Vec2 low = Xy(box.min).array() - block->margin, high = Xy(box.max).array() + block->margin;
+    return {low, {high.x(), low.y()}, high, {low.x(), high.y()}};
+  }
+  if (const auto* cylinder = std::get_if<CylinderStock>(&setup.stock_body)) {
+    const Vec2 center = cylinder->center ? Vec2(*cylinder->center + Xy(zero)) : Xy(box.Center());
+    return CircleAround(center, 0.5 * cylinder->diameter);
+  }
+  Ring outline = std::get<OutlineStock>(setup.stock_body).outline;
+  for (Vec2& p : outline) p += Xy(zero);
+  return outline;
+}
+
+absl::StatusOr<std::shared_ptr<const StockSolid>> ResolveStock(const Surface& surface, const Setup& setup,
+                                                               const Resolved& r, const RunContext& run) {
+  if (std::holds_alternative<NoStockBody>(setup.stock_body)) return nullptr;
+  const Ring ring = StockOutline(setup, r.box, r.program_zero);
+  if (const std::string fault = OutlineFault({ring}); !fault.empty())
+    return FieldError("setup.stock", fmt::format("has an outline that {}", fault));
+  if (!setup.allowance_stated)
+    return std::make_shared<const StockSolid>(StockSolid::Whole(Outline({ring}), r.stock_top_z));
+  PM_ASSIGN_OR_RETURN(StockSolid solid, StockSolid::Roughed(Outline({ring}), r.stock_top_z, surface, run));
+  return std::make_shared<const StockSolid>(std::move(solid));
+}
+
 }  // namespace
 
 absl::StatusOr<Resolved> Resolve(const Surface& surface, const Job& job, const RunContext& run) {
@@ -110,6 +151,8 @@ absl::StatusOr<Resolved> Resolve(const Surface& surface, const Job& job, const R
                       fmt::format("= {:.6g}; must be at least the model's top, {:.6g}",
                                   r.stock_top_z - zero_z, top - zero_z));
   }
+  PM_ASSIGN_OR_RETURN(r.stock, ResolveStock(surface, job.setup, r, run));
+  r.depth_limit = std::max(job.setup.allowance, op.accept_depth);
   r.floor_z = op.floor_z ? *op.floor_z + zero_z : r.box.min.z();
   PM_ASSIGN_OR_RETURN(r.containment, ResolveContainment(surface, job, r.program_zero, run));
   double highest = std::max(top, r.stock_top_z);
@@ -153,6 +196,8 @@ VerifyParams MakeVerifyParams(const Job& job, const Resolved& resolved, const st
   p.program_zero = resolved.program_zero;
   p.stock_top_z = resolved.stock_top_z;
   p.allowance = job.setup.allowance;
+  p.stock = resolved.stock;
+  p.depth_limit = resolved.depth_limit;
   p.containment = resolved.containment;
   return p;
 }

@@ -1,8 +1,11 @@
 // A job's open choices made definite: heights, zero, budget shares. Placed frame unless said otherwise.
 #pragma once
 
+#include <memory>
+
 #include <absl/status/statusor.h>
 
+#include "cam/limits/stock_solid.h"
 #include "cam/plan/job.h"
 #include "cam/plan/region_choices.h"
 
@@ -30,6 +33,8 @@ struct Resolved {
   // angle is then steep all over, whatever its rounding.
   double split_angle = 0.0;
   Budget budget;
+  std::shared_ptr<const StockSolid> stock;  // null: none but the allowance over the surface
+  double depth_limit = 0.0;                 // mm; cuts into the stock may be so deep
   Containment containment;
 };
 

@@ -4,6 +4,8 @@
 #include <span>
 #include <string>
 #include <utility>
+#include <variant>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -11,6 +13,7 @@
 #include "cam/limits/wide_shank.h"
 #include "cam/location/limits/operation_limits.h"
 #include "cam/path/chord/scan_line.h"
+#include "cam/path/stepover/step_over.h"
 #include "cam/plan/beside_depth.h"
 #include "cam/plan/circular_lines_choice.h"
 #include "cam/plan/forced_strategy.h"
@@ -24,6 +27,7 @@
 #include "cam/post/program_reader.h"
 #include "cam/region/split_regions.h"
 #include "cam/toolpath/straighten.h"
+#include "cam/verify/stock_moves.h"
 #include "core/base/error_details.h"
 #include "core/base/polled_run.h"
 #include "core/base/status.h"
@@ -97,7 +101,9 @@ LinkParams MakeLinkParams(const Job& job, const Resolved& resolved, const Operat
   p.allowance = job.setup.allowance;
   // Whatever the operation says, rapids stay clear by more than rounding and the control's smoothing.
   p.approach_gap = std::max(job.operation.approach_gap, job.operation.tolerance);
-  p.low_rapids = job.operation.low_rapids;
+  p.low_rapids = StockIsStated(job.setup) && !job.operation.high_rapids;
+  p.stock = resolved.stock.get();
+  p.depth_limit = resolved.depth_limit;
   p.tool_radius = WidestRadius(job.operation.tool);
   if (const auto shank = WideShankOf(job.operation.tool)) {
     p.shank_lower = std::max(0.0, job.operation.leave - shank->rise);
@@ -105,9 +111,20 @@ LinkParams MakeLinkParams(const Job& job, const Resolved& resolved, const Operat
   p.feed = job.operation.tool.feed;
   p.plunge_feed = job.operation.tool.plunge_feed;
   p.contour_direction = job.operation.contour_direction;
+  p.lead.radius = job.operation.lead_radius.value_or(0.5 * resolved.radius);
+  p.lead.sweep = job.operation.lead_sweep;
+  p.plunge_angle = job.operation.plunge_angle;
+  p.link_feed = job.operation.link_feed;
+  p.lead_feed = job.operation.lead_feed;
   p.pass = MakePassParams(job, resolved);
   p.operation_limits = operation_limits;
   return p;
+}
+
+const char* NameOf(const decltype(Setup::stock_body)& body) {
+  if (std::holds_alternative<BlockStock>(body)) return "block";
+  if (std::holds_alternative<CylinderStock>(body)) return "cylinder";
+  return "prism";
 }
 
 Diagnostic Warning(std::string code, std::string message) {
@@ -122,12 +139,23 @@ Diagnostic Warning(std::string code, std::string message) {
 Diagnostics Assumptions(const Job& job, const Resolved& r) {
   Diagnostics list;
   const double zero_z = r.program_zero.z();
-  list.push_back(
-      Warning("STOCK_ASSUMED",
-              fmt::format("assumed: at most {:.3g} mm of material on the surface, none beside it, nothing "
-                          "above Z{:.4f}",
-                          job.setup.allowance, r.stock_top_z - zero_z)));
-  if (job.operation.low_rapids) {
+  std::string stock = fmt::format("at most {:.3g} mm of material on the surface", job.setup.allowance);
+  if (r.stock == nullptr) {
+    stock += ", none beside it";
+  } else if (job.setup.allowance_stated) {
+    stock += fmt::format(", the rest of the {} beside it", NameOf(job.setup.stock_body));
+  } else {
+    stock = fmt::format("a whole {}, from which nothing has been cut", NameOf(job.setup.stock_body));
+  }
+  stock += fmt::format(", nothing above Z{:.4f}", r.stock_top_z - zero_z);
+  list.push_back(StockIsStated(job.setup) ? Warning("STOCK_STATED", stock)
+                                          : Warning("STOCK_ASSUMED", "assumed: " + stock));
+  if (job.operation.accept_depth > job.setup.allowance) {
+    list.push_back(Warning(
+        "DEPTH_ACCEPTED",
+        fmt::format("cuts up to {:.3g} mm deep into the stock are accepted", job.operation.accept_depth)));
+  }
+  if (StockIsStated(job.setup) && !job.operation.high_rapids) {
     list.push_back(
         Warning("LOW_RAPIDS",
                 "rapids between passes go below the clearance plane, clear of that material however "
@@ -146,7 +174,7 @@ Diagnostics Assumptions(const Job& job, const Resolved& r) {
     list.push_back(Warning("PLUNGE_FEED_ABOVE_FEED",
                            fmt::format("descents steeper than {:.0f} degrees run at {:.6g} mm/min, faster "
                                        "than the feed, {:.6g} mm/min",
-                                       Degrees(LinkParams().plunge_angle), job.operation.tool.plunge_feed,
+                                       Degrees(job.operation.plunge_angle), job.operation.tool.plunge_feed,
                                        job.operation.tool.feed)));
   }
   const double extent = (r.box.max - r.box.min).maxCoeff();
@@ -275,6 +303,50 @@ Diagnostic NothingToCut(const JobReport& report, const Resolved& resolved, bool 
   return Warning("NOTHING_TO_CUT", fmt::format("{}{}: check {}", what, shares, look));
 }
 
+// The feed moves of the ball's centre.
+std::vector<PathSegment> FeedsOf(const Toolpath& toolpath) {
+  std::vector<PathSegment> feeds;
+  for (std::size_t i = 1; i < toolpath.moves.size(); ++i) {
+    if (toolpath.moves[i].kind == MoveKind::kRapid) continue;
+    feeds.push_back({toolpath.moves[i - 1].to, toolpath.moves[i].to, static_cast<int>(i)});
+  }
+  return feeds;
+}
+
+Diagnostic NeedsRoughing(const DeepCuts& deep, const Job& job, const Resolved& resolved) {
+  const double step = CenterStep(resolved.plan_radius, job.operation.scallop, 0.0);
+  const Vec3 tip = deep.center - resolved.program_zero - Vec3(0.0, 0.0, resolved.radius);
+  const std::string stated = job.setup.allowance_stated
+                                 ? ""
+                                 : ", say --allowance if the stock over the part has been roughed to it,";
+  Diagnostic d = MakeError(
+      "NEEDS_ROUGHING",
+      fmt::format(
+          "the ball would cut {:.3g} mm deep into the stock at X{:.4f} Y{:.4f} Z{:.4f}, and more than "
+          "{:.3g} mm deep over about {:.3g} mm2: rough it first{} or raise --accept-depth",
+          deep.deepest, tip.x(), tip.y(), tip.z(), resolved.depth_limit, deep.length * step, stated),
+      {});
+  d.where.point = deep.center - Vec3(0.0, 0.0, resolved.radius);
+  return d;
+}
+
+// One finding for each lead onto a pass that is steeper against it than a ramp, up to a number of them.
+Diagnostics SteepLeads(const std::vector<LeadFigure>& leads, const Resolved& resolved) {
+  constexpr std::size_t kMost = 20;
+  Diagnostics list;
+  for (const LeadFigure& lead : leads) {
+    if (lead.kind != LeadKind::kStraight || !lead.in || list.size() >= kMost) continue;
+    const Vec3 tip = lead.place - resolved.program_zero - Vec3(0.0, 0.0, resolved.radius);
+    list.push_back(Warning(
+        "STEEP_LEAD",
+        fmt::format("the tool comes onto a pass from beside or above it at X{:.4f} Y{:.4f} Z{:.4f}: there is "
+                    "no room for an arc of {:.3g} mm, and the pass is too short for a ramp",
+                    tip.x(), tip.y(), tip.z(), kLeastLeadRadius)));
+    list.back().where.point = lead.place - Vec3(0.0, 0.0, resolved.radius);
+  }
+  return list;
+}
+
 }  // namespace
 
 absl::StatusOr<ChosenRegions> PlanRegions(const Surface& surface, const Job& job, const RunContext& run) {
@@ -381,6 +453,19 @@ absl::StatusOr<JobResult> PlanAndJudge(const Surface& surface, const Job& job, c
                                          resolved.program_zero, run));
   report.diagnostics.insert(report.diagnostics.end(), beside.begin(), beside.end());
   clock.Done("link");
+  report.leads = result.motion.leads;
+  const Diagnostics steep = SteepLeads(report.leads, resolved);
+  report.diagnostics.insert(report.diagnostics.end(), steep.begin(), steep.end());
+  if (resolved.stock != nullptr) {
+    const DeepCuts deep = FindDeepCuts(*resolved.stock, FeedsOf(result.motion.toolpath), resolved.radius,
+                                       resolved.depth_limit, run);
+    PM_RETURN_IF_ERROR(run.Check());
+    if (deep.move >= 0) {
+      report.outcome = Outcome::kNeedsRoughing;
+      report.diagnostics.push_back(NeedsRoughing(deep, job, resolved));
+      return result;
+    }
+  }
 
   PostParams post;
   post.dialect = job.dialect;

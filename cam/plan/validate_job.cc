@@ -88,6 +88,30 @@ absl::Status ValidatePost(const Job& job) {
   return absl::OkStatus();
 }
 
+// Leads, links and depths.
+absl::Status ValidateMotion(const Operation& op) {
+  constexpr double kMost = 1000.0;
+  if (op.lead_radius) {
+    PM_RETURN_IF_ERROR(Range("leads.radius_mm", *op.lead_radius,
+                             *op.lead_radius > 0.0 && *op.lead_radius <= kMost, "in (0, 1000]"));
+  }
+  PM_RETURN_IF_ERROR(Range(
+      "leads.sweep_deg", Degrees(op.lead_sweep),
+      op.lead_sweep >= Radians(kMinLeadSweepDeg) - 1e-9 && op.lead_sweep <= Radians(kMaxLeadSweepDeg) + 1e-9,
+      fmt::format("in [{:g}, {:g}]", kMinLeadSweepDeg, kMaxLeadSweepDeg)));
+  PM_RETURN_IF_ERROR(Range(
+      "feeds.plunge_angle_deg", Degrees(op.plunge_angle),
+      op.plunge_angle >= Radians(kMinPlungeAngleDeg) - 1e-9 && op.plunge_angle <= kDefaultPlungeAngle + 1e-9,
+      fmt::format("in [{:g}, {:g}]", kMinPlungeAngleDeg, Degrees(kDefaultPlungeAngle))));
+  const auto feed = [](const char* field, const std::optional<double>& f) {
+    return f ? Range(field, *f, *f >= 0.1 && *f <= 1e6, "in [0.1, 1e6]") : absl::OkStatus();
+  };
+  PM_RETURN_IF_ERROR(feed("feeds.link_mm_per_min", op.link_feed));
+  PM_RETURN_IF_ERROR(feed("feeds.lead_mm_per_min", op.lead_feed));
+  return Range("accept_depth_mm", op.accept_depth, op.accept_depth >= 0.0 && op.accept_depth <= kMost,
+               "in [0, 1000]");
+}
+
 }  // namespace
 
 absl::Status ValidateJob(const Job& job) {
@@ -161,6 +185,7 @@ absl::Status ValidateJob(const Job& job) {
     return FieldError("heights.top_z_mm",
                       fmt::format("= {:.6g}; must be at least floor_z_mm = {:.6g}", *op.top_z, *op.floor_z));
   }
+  PM_RETURN_IF_ERROR(ValidateMotion(op));
   PM_RETURN_IF_ERROR(ValidateLimits(job));
   PM_RETURN_IF_ERROR(length("setup.stock.top_z_mm", job.setup.stock_top_z));
   PM_RETURN_IF_ERROR(length("setup.program_zero.x_mm", job.setup.zero_point.x()));

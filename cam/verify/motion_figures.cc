@@ -128,25 +128,33 @@ class DescentWatch {
  public:
   explicit DescentWatch(double plunge_feed) : plunge_feed_(plunge_feed) {}
 
-  // True if this move ends a descent that is steeper than allowed.
-  bool Add(const ProgramMove& move) {
+  // Adds the move with this index. Returns how many moves, this one last, are a descent that is steeper than
+  // allowed; 0 if none is.
+  int Add(const ProgramMove& move) {
     const bool watched = plunge_feed_ > 0.0 && move.kind == ProgramMove::Kind::kFeed && !move.from_above &&
                          !move.to_above && move.feed > plunge_feed_ * (1.0 + 1e-6) + kFeedDigits;
     if (!watched) {
-      drop_ = along_ = 0.0;
-      return false;
+      Restart();
+      return 0;
     }
     const Vec3 d = move.to - move.from;
     drop_ -= d.z();
     along_ += Xy(d).norm();
-    if (std::hypot(drop_, along_) < kTraceable) return false;
-    const bool steep = std::atan2(drop_, along_) > kSteepDescent + kSteepSlack;
-    drop_ = along_ = 0.0;
+    ++count_;
+    if (std::hypot(drop_, along_) < kTraceable) return 0;
+    const int steep = std::atan2(drop_, along_) > kSteepDescent + kSteepSlack ? count_ : 0;
+    Restart();
     return steep;
   }
 
  private:
+  void Restart() {
+    drop_ = along_ = 0.0;
+    count_ = 0;
+  }
+
   double plunge_feed_;
+  int count_ = 0;                    // moves since the last test
   double drop_ = 0.0, along_ = 0.0;  // mm, down and in plan, since the last test
 };
 
@@ -157,7 +165,7 @@ MotionFigures MeasureMotion(const ProgramMotion& motion, const Tool& tool) {
   DescentWatch watch(tool.plunge_feed);
   for (std::size_t i = 0; i < motion.moves.size(); ++i) {
     const ProgramMove& move = motion.moves[i];
-    if (watch.Add(move) && figures.steep_move < 0) figures.steep_move = static_cast<int>(i);
+    for (int k = watch.Add(move); k-- > 0;) figures.steep_moves.push_back(static_cast<int>(i) - k);
     if (!move.from_above) figures.tip_box.Add(move.from);
     if (!move.to_above) figures.tip_box.Add(move.to);
     if (move.from_above || move.to_above) continue;
@@ -186,6 +194,10 @@ absl::StatusOr<double> RequiredStickout(const Surface& surface, const Tool& tool
     if (move.from_above) a.z() = b.z();
     if (move.to_above) b.z() = a.z();
     const double low = std::min(a.z(), b.z());
+    if (params.stock != nullptr && params.stock_top_z - low > stickout &&
+        params.stock->SegmentComesNearer(Lift(Xy(a), -kInfinity), Lift(Xy(b), -kInfinity),
+                                         WidestRadius(tool)))
+      stickout = params.stock_top_z - low;
     if (params.stock_top_z - low <= stickout && surface.box.max.z() - low <= stickout) continue;
     stickout = std::max(stickout, grid.Highest(Xy(a), Xy(b), radius) - low);
     if (move.kind == ProgramMove::Kind::kRapid)

@@ -1,6 +1,8 @@
 // Measures a program's motion: lengths, box and descents, and the stick-out that the tool needs.
 #pragma once
 
+#include <vector>
+
 #include "cam/tool/tool.h"
 #include "cam/toolpath/toolpath.h"
 #include "cam/verify/verify.h"
@@ -15,8 +17,8 @@ struct MotionFigures {
   Box3 tip_box;  // program frame; places of the tip below machine zero; empty if there are none
   double cut_length = 0.0, rapid_length = 0.0;  // mm, of moves that do not touch machine zero
   double steepest_descent = 0.0;                // rad, of feed moves longer than rounding
-  // First feed move that ends a descent steeper than 30 degrees and faster than plunge feed; -1 if none.
-  int steep_move = -1;
+  // The feed moves of descents that are steeper than 30 degrees and faster than plunge feed, in rising order.
+  std::vector<int> steep_moves;
 };
 MotionFigures MeasureMotion(const ProgramMotion& motion, const Tool& tool);
 

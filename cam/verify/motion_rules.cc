@@ -63,16 +63,6 @@ class Rules {
            lowest == motion_.moves.end() ? 0 : lowest->line);
   }
 
-  void Descents(const MotionFigures& figures, const Tool& tool) {
-    if (figures.steep_move < 0) return;
-    const ProgramMove& move = motion_.moves[static_cast<std::size_t>(figures.steep_move)];
-    Broken(
-        "STEEP_DESCENT",
-        fmt::format("line {}: a descent steeper than 30 degrees at {:.6g} mm/min; the plunge feed is {:.6g}",
-                    move.line, move.feed, tool.plunge_feed),
-        move.line);
-  }
-
   Diagnostics Take() { return std::move(broken_); }
 
  private:
@@ -92,14 +82,13 @@ class Rules {
 
 }  // namespace
 
-Diagnostics BrokenMotionRules(const ProgramMotion& motion, const Tool& tool, const VerifyParams& params,
+Diagnostics BrokenMotionRules(const ProgramMotion& motion, const VerifyParams& params,
                               const MotionFigures& figures) {
   Rules rules(motion, params);
   rules.Ends();
   rules.KnownPlaces();
   rules.Spindle();
   rules.Floor(figures);
-  rules.Descents(figures, tool);
   return rules.Take();
 }
 

@@ -15,6 +15,7 @@
 #include "cam/verify/motion_figures.h"
 #include "cam/verify/motion_rules.h"
 #include "cam/verify/motion_sets.h"
+#include "cam/verify/stock_moves.h"
 #include "cam/verify/validate.h"
 #include "cam/verify/verify_limits.h"
 #include "core/base/polled_run.h"
@@ -331,7 +332,8 @@ class Verifier {
     if (!figures.tip_box.Empty()) report_.tip_z_min = figures.tip_box.min.z();
     PM_ASSIGN_OR_RETURN(report_.required_stickout, RequiredStickout(surface_, tool_, motion_, params_, run_));
     PM_RETURN_IF_ERROR(JudgeAvoided());
-    Diagnostics broken = BrokenMotionRules(motion_, tool_, params_, figures);
+    Diagnostics broken = BrokenMotionRules(motion_, params_, figures);
+    PM_RETURN_IF_ERROR(JudgeDescents(figures));
     const double slack = std::max(0.0, params_.tolerance - motion_.controller_tolerance);
     const Diagnostics beyond =
         BrokenLimits(surface_, motion_, {limits_->centers(), radius_, offset_, slack}, run_);
@@ -371,6 +373,8 @@ class Verifier {
                            radius_, run_);
     PM_ASSIGN_OR_RETURN(Extremes found, FindGouge({surface_, roots_}, tree, p, run_, "verify: rapids"));
     ReportPlaces("RAPID_IN_STOCK", found.violations, "a rapid enters the stock");
+    JudgeStockSolid(clear_z);
+    PM_RETURN_IF_ERROR(run_.Check());
     const SegmentTree boxes(OtherDogLegs(found, offset_, clear_z), Metric::kSweptBox, radius_, run_);
     PM_ASSIGN_OR_RETURN(const Extremes beside,
                         FindGouge({surface_, roots_}, boxes, p, run_, "verify: rapids"));
@@ -378,6 +382,69 @@ class Verifier {
                  "a control that does not drive all axes together may take a rapid into the stock");
     if (!found.violations.empty() || !beside.violations.empty()) report_.motion_ok = false;
     return absl::OkStatus();
+  }
+
+  // Steep descents faster than plunge feed must be clear of the stock.
+  absl::Status JudgeDescents(const MotionFigures& figures) {
+    if (figures.steep_moves.empty()) return absl::OkStatus();
+    std::vector<PathSegment> moves = CollectMoves(motion_, MotionSet::kCut, offset_);
+    std::erase_if(moves, [&](const PathSegment& s) {
+      return !std::binary_search(figures.steep_moves.begin(), figures.steep_moves.end(), s.move);
+    });
+    GougeParams p;
+    p.radius = ball_ + params_.allowance - kRapidSlack;
+    p.chord_error = chord_error_;
+    p.certainty = params_.certainty;
+    p.limit = 0.0;
+    const SegmentTree tree(moves, Metric::kSwept, radius_, run_);
+    PM_ASSIGN_OR_RETURN(const Extremes found,
+                        FindGouge({surface_, roots_}, tree, p, run_, "verify: descents"));
+    int in_stock = found.violations.empty() ? -1 : found.worst.move;
+    if (in_stock < 0 && params_.stock != nullptr)
+      in_stock = FirstInStock(*params_.stock, moves, ball_ - kRapidSlack, false, run_);
+    if (in_stock < 0) return absl::OkStatus();
+    const ProgramMove& move = motion_.moves[static_cast<std::size_t>(in_stock)];
+    report_.motion_ok = false;
+    Report("STEEP_DESCENT", fmt::format("line {}: a descent steeper than 30 degrees into the stock at {:.6g} "
+                                        "mm/min; the plunge feed is {:.6g}",
+                                        move.line, move.feed, tool_.plunge_feed));
+    report_.findings.back().where.line = move.line;
+    return absl::OkStatus();
+  }
+
+  // Moves against the stock beside and over the part.
+  void JudgeStockSolid(double clear_z) {
+    if (params_.stock == nullptr) return;
+    const StockSolid& stock = *params_.stock;
+    const auto broken = [&](const char* code, int move, const std::string& what) {
+      if (move < 0) return;
+      report_.motion_ok = false;
+      Report(code, fmt::format("line {}: {}", Line(move), what));
+      report_.findings.back().where.line = Line(move);
+    };
+    const double ball = ball_ - kRapidSlack;
+    broken("RAPID_IN_STOCK",
+           FirstInStock(stock, CollectMoves(motion_, MotionSet::kRapid, offset_, clear_z), ball, false, run_),
+           "a rapid enters the stock beside or over the part");
+    broken(
+        "RAPID_DOG_LEG",
+        FirstInStock(stock, CollectMoves(motion_, MotionSet::kDogLegs, offset_, clear_z), ball, true, run_),
+        "a control that does not drive all axes together may take a rapid into the stock beside or over "
+        "the part");
+    const DeepCuts deep = FindDeepCuts(stock, CollectMoves(motion_, MotionSet::kCut, offset_), ball_,
+                                       params_.depth_limit, run_);
+    const Vec3 tip = deep.center - offset_;
+    broken("CUT_TOO_DEEP", deep.move,
+           fmt::format("the ball cuts {:.3g} mm deep into the stock at X{:.4f} Y{:.4f} Z{:.4f}; the limit is "
+                       "{:.3g} mm",
+                       deep.deepest, tip.x(), tip.y(), tip.z(), params_.depth_limit));
+    if (const auto shank = WideShankOf(tool_)) {
+      const Vec3 up(0, 0, shank->rise);
+      broken("SHANK_IN_STOCK",
+             FirstShankInStock(stock, CollectMoves(motion_, MotionSet::kSwept, offset_ + up), shank->radius,
+                               params_.depth_limit, run_),
+             "the shank stands in the stock beside or over the part");
+    }
   }
 
   const Surface& surface_;

@@ -18,6 +18,7 @@
 #include <absl/status/statusor.h>
 
 #include "cam/limits/containment.h"
+#include "cam/limits/stock_solid.h"
 #include "cam/limits/surface_mask.h"
 #include "cam/tool/tool.h"
 #include "cam/toolpath/toolpath.h"
@@ -53,6 +54,9 @@ struct VerifyParams {
   Vec3 program_zero = Vec3::Zero();  // point of the placed frame that is X0 Y0 Z0
   double stock_top_z = 0.0;          // mm, placed frame; highest material
   double allowance = 0.5;            // mm, stock allowance along the normal; rapids keep clear of it
+  // The stock beside and over the part; null: none but the allowance.
+  std::shared_ptr<const StockSolid> stock = nullptr;
+  double depth_limit = 0.5;  // mm; feeds may cut so deep into the stock
   // Parts with a finish of their own. Places in none of them are not to be finished. If empty, the whole
   // surface has the finish above.
   std::vector<FinishPart> parts;
@@ -116,7 +120,8 @@ struct VerifyReport {
   Box3 tip_box;                                 // program frame; places of the tip below machine zero
   double cut_length = 0.0, rapid_length = 0.0;  // mm, of moves that do not touch machine zero
   // Errors: GOUGE, SHANK_GOUGE, LEFTOVER, RAPID_IN_STOCK, RAPID_DOG_LEG, OUTSIDE_BOUNDARY (feeds), ABOVE_TOP
-  // (feeds), OBSTACLE_HIT, BESIDE_PART, AVOID_MARGIN (of each of these codes at most 20, of different lines
+  // (feeds), OBSTACLE_HIT, CUT_TOO_DEEP,
+  // SHANK_IN_STOCK, BESIDE_PART, AVOID_MARGIN (of each of these codes at most 20, of different lines
   // and places, the worst first), CONTROL_SMOOTHING, BELOW_FLOOR, STEEP_DESCENT, UNKNOWN_START,
   // FIRST_MOTION_NOT_UP, LAST_MOTION_NOT_UP, SPINDLE_STOPPED, SPINDLE_LEFT_ON, COOLANT_LEFT_ON.
   // Warnings: what the program leaves to the control's state (ProgramMotion::assumptions), and

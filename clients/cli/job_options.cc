@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "clients/cli/input_file.h"
+#include "clients/cli/stock_option.h"
 #include "clients/cli/text.h"
 
 namespace patchmill::cli {
@@ -165,6 +166,10 @@ void AddStockOptions(CLI::App& app, SetupOptions& options) {
             "top of the stock, mm; default: top of the model + allowance");
   AddNumber(app, "--allowance", options.allowance,
             "stock allowance along the normal, mm; default 0.5, or --leave if that is more");
+  app.add_option("--stock", options.stock,
+                 "the stock as it lies on the machine, up to --stock-top: block[,MARGIN] around the model |\n"
+                 "cylinder,D[,X,Y] | \"outline: X,Y X,Y ...\" | outline:@FILE. It is whole, or with "
+                 "--allowance it has been\nroughed to that over the part and stands beside it");
 }
 
 absl::StatusOr<v1::Setup> MakeSetup(const SetupOptions& options) {
@@ -196,6 +201,10 @@ absl::StatusOr<v1::Setup> MakeSetup(const SetupOptions& options) {
   }
   if (options.stock_top) setup.mutable_stock()->set_top_z_mm(*options.stock_top);
   if (options.allowance) setup.mutable_stock()->set_allowance_mm(*options.allowance);
+  if (!options.stock.empty()) {
+    if (const absl::Status read = ReadStockBody(options.stock, *setup.mutable_stock()); !read.ok())
+      return read;
+  }
   return setup;
 }
 
@@ -241,7 +250,14 @@ v1::Operation MakeOperation(const OperationOptions& options) {
   op.set_detail(options.detail);
   op.set_contour_direction(MakeDirection(options.direction));
   op.mutable_heights()->set_clearance_above_mm(options.clearance);
-  op.mutable_heights()->set_low_rapids(options.low_rapids);
+  op.mutable_heights()->set_high_rapids(options.high_rapids);
+  if (options.approach_gap) op.mutable_heights()->set_approach_gap_mm(*options.approach_gap);
+  if (options.lead_radius) op.mutable_leads()->set_radius_mm(*options.lead_radius);
+  if (options.lead_sweep) op.mutable_leads()->set_sweep_deg(*options.lead_sweep);
+  if (options.plunge_angle) op.mutable_feeds()->set_plunge_angle_deg(*options.plunge_angle);
+  if (options.link_feed) op.mutable_feeds()->set_link_mm_per_min(*options.link_feed);
+  if (options.lead_feed) op.mutable_feeds()->set_lead_mm_per_min(*options.lead_feed);
+  op.set_accept_depth_mm(options.accept_depth);
   if (options.floor) op.mutable_heights()->set_floor_z_mm(*options.floor);
   return op;
 }

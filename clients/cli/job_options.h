@@ -21,6 +21,7 @@ struct SetupOptions {
   std::string zero = "origin";
   std::optional<double> stock_top;
   std::optional<double> allowance;
+  std::string stock;
 };
 
 // The tool above its ball.
@@ -33,7 +34,9 @@ struct OperationOptions {
   std::string strategy = "auto", direction = "climb", coolant = "off", edges = "stop";
   double zigzag_angle = 0.0, bend = 20.0, clearance = 5.0, detail = 0.5;
   bool one_way = false, spirals = false, auto_angle = false, no_border_passes = false;
-  bool no_round_lines = false, low_rapids = false;
+  bool no_round_lines = false, high_rapids = false, low_rapids = false;
+  std::optional<double> approach_gap, lead_radius, lead_sweep, plunge_angle, link_feed, lead_feed;
+  double accept_depth = 0.0;
   std::optional<double> floor, feed, plunge_feed, spindle;
   int tool_number = 1;
   ShankOptions shank;

@@ -35,15 +35,6 @@ absl::Status ReadPoints(const std::string& text, const std::string& what,
   return absl::OkStatus();
 }
 
-// Reads a ring from its points, or from a file "@FILE".
-absl::Status ReadRing(const std::string& text, const std::string& option,
-                      google::protobuf::RepeatedField<double>* xy) {
-  if (text.empty() || text.front() != '@') return ReadPoints(text, option, xy);
-  absl::StatusOr<std::string> content = ReadWholeFile(text.substr(1));
-  if (!content.ok()) return content.status();
-  return ReadPoints(*content, text.substr(1), xy);
-}
-
 // Reads "[NAME=]TOP[,MARGIN]: POINTS".
 absl::Status ReadObstacle(const std::string& text, v1::Obstacle& obstacle) {
   const std::size_t colon = text.find(':');
@@ -74,6 +65,14 @@ v1::BoundaryMode MakeMode(const std::string& name) {
 }
 
 }  // namespace
+
+absl::Status ReadRing(const std::string& text, const std::string& option,
+                      google::protobuf::RepeatedField<double>* xy) {
+  if (text.empty() || text.front() != '@') return ReadPoints(text, option, xy);
+  absl::StatusOr<std::string> content = ReadWholeFile(text.substr(1));
+  if (!content.ok()) return content.status();
+  return ReadPoints(*content, text.substr(1), xy);
+}
 
 void AddLimitOptions(CLI::App& app, LimitOptions& options) {
   app.add_option("--only", options.only,

@@ -27,6 +27,10 @@ void AddLimitOptions(CLI::App& app, LimitOptions& options);
 // Adds the obstacles to the set-up and fills the selection if an option sets it. INVALID_ARGUMENT names the
 // option.
 absl::Status SetLimits(const LimitOptions& options, v1::Setup& setup, v1::Selection& selection);
+// Reads a ring into packed x y from its points "X,Y X,Y X,Y", or from a file "@FILE" of them.
+// INVALID_ARGUMENT names the option or the file.
+absl::Status ReadRing(const std::string& text, const std::string& option,
+                      google::protobuf::RepeatedField<double>* xy);
 // Whether an option sets the selection.
 bool Selects(const LimitOptions& options);
 

@@ -127,6 +127,24 @@ absl::Status WriteFiles(const MillOptions& options, Received& received) {
   return received.program.Commit();
 }
 
+// ", 4.1 m less if --allowance states the stock"; empty if that would save little.
+std::string SavedRapids(const v1::Report& report) {
+  const double saved = report.rapids_saved_by_stated_stock_mm();
+  if (saved < 100.0) return "";
+  return fmt::format(", {:.1f} m less if --allowance states the stock", saved / 1000.0);
+}
+
+// "12 arcs (11 of the whole radius, least 0.75 mm), 1 ramp".
+std::string LeadsLine(const v1::LeadFigures& leads) {
+  std::string line = fmt::format("{} arcs", leads.arc_count());
+  if (leads.arc_count() > 0) {
+    line += fmt::format(" ({} of the whole radius, least {:.3g} mm; {} with a way back)",
+                        leads.whole_radius_count(), leads.least_radius_mm(), leads.back_count());
+  }
+  return line + fmt::format(", {} ramps, {} steep, {} straight off passes", leads.ramp_count(),
+                            leads.steep_count(), leads.straight_out_count());
+}
+
 // "12 % above the lower bound for this finish".
 std::string OverLeast(const v1::Report& report) {
   const double least = report.least_cut_length_mm();
@@ -137,24 +155,28 @@ std::string OverLeast(const v1::Report& report) {
 
 // Warnings that hold for nearly every job. The header of the program states them.
 bool IsAssumption(const v1::Diagnostic& finding) {
-  constexpr std::string_view kCodes[] = {"STOCK_ASSUMED", "LOW_RAPIDS", "HOLDER_NOT_CHECKED",
+  constexpr std::string_view kCodes[] = {"STOCK_ASSUMED", "STOCK_STATED", "LOW_RAPIDS", "HOLDER_NOT_CHECKED",
                                          "DEFAULT_CUTTING_DATA"};
   return std::find(std::begin(kCodes), std::end(kCodes), finding.code()) != std::end(kCodes);
 }
 
-// Prints the warnings. Those of the same code about single patches are one line: the first, with the number
+// Whether there may be many findings of this code, one for each place.
+bool OfManyPlaces(const v1::Diagnostic& finding) {
+  return finding.where().has_patch_index() || finding.code() == "STEEP_LEAD";
+}
+
+// Prints the warnings. Those of the same code about single places are one line: the first, with the number
 // of the others.
 void PrintWarnings(const v1::Report& report, bool assumptions) {
   std::map<std::string, int> of_patches;
   for (const v1::Diagnostic& finding : report.diagnostics()) {
-    if (finding.severity() != v1::SEVERITY_INFO && finding.where().has_patch_index())
-      ++of_patches[finding.code()];
+    if (finding.severity() != v1::SEVERITY_INFO && OfManyPlaces(finding)) ++of_patches[finding.code()];
   }
   for (const v1::Diagnostic& finding : report.diagnostics()) {
     const bool answers = finding.code() == "UP_CHOSEN" && assumptions;  // what the options left open
     if (answers) fmt::print(stderr, "  {}\n", Line(finding));
     if (finding.severity() == v1::SEVERITY_INFO || (!assumptions && IsAssumption(finding))) continue;
-    if (!finding.where().has_patch_index()) {
+    if (!OfManyPlaces(finding)) {
       fmt::print(stderr, "  {}\n", Line(finding));
     } else if (const auto first = of_patches.extract(finding.code())) {
       const std::string more = first.mapped() > 1 ? fmt::format(", and {} more", first.mapped() - 1) : "";
@@ -189,8 +211,10 @@ void PrintSummary(const MillOptions& options, const v1::Report& report) {
   fmt::print(stderr, "  motion    {:.1f} min ({}), {} points, {} retracts\n",
              report.estimated_time_s() / 60.0, report.time_basis(), report.point_count(),
              report.retract_count());
-  fmt::print(stderr, "            {:.1f} m of feed, {}\n", report.cut_length_mm() / 1000.0,
-             OverLeast(report));
+  fmt::print(stderr, "            {:.1f} m of feed, {}; {:.1f} m of rapids{}\n",
+             report.cut_length_mm() / 1000.0, OverLeast(report), report.rapid_length_mm() / 1000.0,
+             SavedRapids(report));
+  fmt::print(stderr, "  leads     {}\n", LeadsLine(report.leads()));
   if (report.certificate_defect_count() > 0) {
     fmt::print(stderr,
                "  heights   {} corrected by their certificates: a defect of the planner, please report\n",
@@ -272,6 +296,26 @@ void AddOperationOptions(CLI::App& app, OperationOptions& op) {
   AddShankOptions(app, op.shank);
 }
 
+// The motion between passes.
+void AddMotionOptions(CLI::App& app, OperationOptions& op) {
+  app.add_flag(
+      "--high-rapids", op.high_rapids,
+      "all rapids at the clearance plane; else they are only as high as needed to clear the stock over "
+      "the\nwhole rectangle between their ends, where --allowance or --stock states it");
+  app.add_flag("--low-rapids", op.low_rapids, "without effect: rapids are low where the stock is stated");
+  AddNumber(app, "--accept-depth", op.accept_depth,
+            "how deep passes may cut into the --stock, mm, where that is more than --allowance");
+  AddNumber(app, "--approach-gap", op.approach_gap,
+            "distance from the stock at which a rapid changes to feed, mm; default 1");
+  AddNumber(app, "--lead-radius", op.lead_radius,
+            "radius of the arcs onto passes and off them, mm; default half the ball radius");
+  AddNumber(app, "--lead-sweep", op.lead_sweep, "sweep of these arcs, degrees, 10 to 90; default 90");
+  AddNumber(app, "--lead-feed", op.lead_feed, "feed of leads, mm/min; default --feed");
+  AddNumber(app, "--link-feed", op.link_feed, "feed of links between passes, mm/min; default --feed");
+  AddNumber(app, "--plunge-angle", op.plunge_angle,
+            "descents steeper than this run at plunge feed, degrees, 1 to 30; default 30");
+}
+
 }  // namespace
 
 Command AddMill(CLI::App& app) {
@@ -286,11 +330,7 @@ Command AddMill(CLI::App& app) {
   AddReadingOptions(app, options->reading);
   AddSetupOptions(app, options->setup);
   AddStockOptions(app, options->setup);
-  app.add_flag(
-         "--low-rapids", options->operation.low_rapids,
-         "rapids between passes only as high as needed to clear the stock over the whole rectangle between "
-         "their ends; needs --allowance")
-      ->needs(app.get_option("--allowance"));
+  AddMotionOptions(app, options->operation);
   app.add_option("--work-offset", options->work_offset, "work offset, G54 to G59")->capture_default_str();
   AddPostOptions(app, "--post", options->post);
   app.add_option("--program-number", options->program_number,

@@ -354,6 +354,8 @@ v1::Outcome ToProto(Outcome value) {
       return v1::OUTCOME_NOTHING_TO_CUT;
     case Outcome::kVerificationFailed:
       return v1::OUTCOME_VERIFICATION_FAILED;
+    case Outcome::kNeedsRoughing:
+      return v1::OUTCOME_NEEDS_ROUGHING;
   }
   return v1::OUTCOME_UNSPECIFIED;
 }

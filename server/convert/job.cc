@@ -36,7 +36,39 @@ void ReadHeights(const v1::Heights& proto, const std::string& at, Operation& op,
             fmt::format("in (0, {}]", limits::kMaxApproachGapMm));
   }
   if (proto.has_top_z_mm()) op.top_z = height("top_z_mm", proto.top_z_mm());
-  op.low_rapids = proto.low_rapids();
+  op.high_rapids = proto.high_rapids();
+}
+
+void ReadLeads(const v1::Leads& proto, const std::string& at, Operation& op, FieldErrors& errors) {
+  if (proto.has_radius_mm()) {
+    op.lead_radius = proto.radius_mm();
+    Require(errors, At(at, "radius_mm"), *op.lead_radius,
+            *op.lead_radius > 0.0 && *op.lead_radius <= limits::kMaxDepthMm,
+            fmt::format("in (0, {}]", limits::kMaxDepthMm));
+  }
+  if (proto.has_sweep_deg()) {
+    Require(errors, At(at, "sweep_deg"), proto.sweep_deg(),
+            proto.sweep_deg() >= kMinLeadSweepDeg && proto.sweep_deg() <= kMaxLeadSweepDeg,
+            fmt::format("in [{:g}, {:g}]", kMinLeadSweepDeg, kMaxLeadSweepDeg));
+    op.lead_sweep = Radians(proto.sweep_deg());
+  }
+}
+
+void ReadFeeds(const v1::Feeds& proto, const std::string& at, Operation& op, FieldErrors& errors) {
+  if (proto.has_plunge_angle_deg()) {
+    Require(errors, At(at, "plunge_angle_deg"), proto.plunge_angle_deg(),
+            proto.plunge_angle_deg() >= kMinPlungeAngleDeg &&
+                proto.plunge_angle_deg() <= Degrees(kDefaultPlungeAngle),
+            fmt::format("in [{:g}, {:g}]", kMinPlungeAngleDeg, Degrees(kDefaultPlungeAngle)));
+    op.plunge_angle = Radians(proto.plunge_angle_deg());
+  }
+  const auto feed = [&](const char* name, double value) {
+    Require(errors, At(at, name), value, value >= limits::kMinFeed && value <= limits::kMaxFeed,
+            fmt::format("in [{:g}, {:g}]", limits::kMinFeed, limits::kMaxFeed));
+    return value;
+  };
+  if (proto.has_link_mm_per_min()) op.link_feed = feed("link_mm_per_min", proto.link_mm_per_min());
+  if (proto.has_lead_mm_per_min()) op.lead_feed = feed("lead_mm_per_min", proto.lead_mm_per_min());
 }
 
 void ReadPost(const v1::Post& proto, Job& job, FieldErrors& errors) {
@@ -153,6 +185,12 @@ Operation FromProto(const v1::Operation& proto, std::string_view at, FieldErrors
   op.edge_rule = FromProto(proto.edge_rule(), At(at, "edge_rule"), errors);
   op.selection = FromProto(proto.selection(), At(at, "selection"), errors);
   ReadHeights(proto.heights(), At(at, "heights"), op, errors);
+  ReadLeads(proto.leads(), At(at, "leads"), op, errors);
+  ReadFeeds(proto.feeds(), At(at, "feeds"), op, errors);
+  op.accept_depth = proto.accept_depth_mm();
+  Require(errors, At(at, "accept_depth_mm"), op.accept_depth,
+          op.accept_depth >= 0.0 && op.accept_depth <= limits::kMaxDepthMm,
+          fmt::format("in [0, {}]", limits::kMaxDepthMm));
   ReadOverrides(proto.regions_sha256(), proto.region_overrides(), at, op, errors);
   return op;
 }
@@ -165,14 +203,9 @@ Job FromProto(const v1::Job& proto, const v1::Post& post, std::string_view at, F
   } else {
     const std::string path = At(at, "operations[0]");
     job.operation = FromProto(proto.operations(0), path, errors);
-    if (job.operation.low_rapids && !proto.setup().stock().has_allowance_mm()) {
-      errors.Add(At(path, "heights.low_rapids"),
-                 "is set; needs setup.stock.allowance_mm, because the stock on the surface must be known");
-    }
     job.default_cutting_data = proto.operations(0).tool().cutting_data_is_default();
     // The stock to leave is part of the allowance.
-    if (!proto.setup().stock().has_allowance_mm())
-      job.setup.allowance = std::max(job.setup.allowance, job.operation.leave);
+    if (!job.setup.allowance_stated) job.setup.allowance = std::max(job.setup.allowance, job.operation.leave);
     if (job.setup.allowance < job.operation.leave) {
       errors.Add(At(at, "setup.stock.allowance_mm"),
                  fmt::format("= {:.10g}; must be at least stock_to_leave_mm = {:.10g}", job.setup.allowance,
@@ -214,9 +247,15 @@ v1::Operation ToProto(const Job& job, const Operation& op) {
     heights.set_clearance_above_mm(op.clearance_above.value_or(kDefaultClearanceAbove));
   }
   heights.set_approach_gap_mm(op.approach_gap);
-  if (op.low_rapids) heights.set_low_rapids(true);
+  if (op.high_rapids) heights.set_high_rapids(true);
   if (op.floor_z) heights.set_floor_z_mm(*op.floor_z);
   if (op.top_z) heights.set_top_z_mm(*op.top_z);
+  if (op.lead_radius) proto.mutable_leads()->set_radius_mm(*op.lead_radius);
+  proto.mutable_leads()->set_sweep_deg(Degrees(op.lead_sweep));
+  proto.mutable_feeds()->set_plunge_angle_deg(Degrees(op.plunge_angle));
+  if (op.link_feed) proto.mutable_feeds()->set_link_mm_per_min(*op.link_feed);
+  if (op.lead_feed) proto.mutable_feeds()->set_lead_mm_per_min(*op.lead_feed);
+  proto.set_accept_depth_mm(op.accept_depth);
   const Selection& s = op.selection;
   if (!s.patches.empty() || !s.avoid.empty() || !s.boundary.empty()) {
     *proto.mutable_selection() = ToProto(s);

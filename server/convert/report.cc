@@ -22,6 +22,38 @@ double Number(double x) { return std::isfinite(x) ? x : 0.0; }
 
 v1::CheckState State(bool ok) { return ok ? v1::CHECK_STATE_PASSED : v1::CHECK_STATE_FAILED; }
 
+v1::LeadFigures LeadsToProto(const std::vector<LeadFigure>& leads) {
+  v1::LeadFigures proto;
+  double least = kInfinity;
+  for (const LeadFigure& lead : leads) {
+    if (lead.kind != LeadKind::kArc && lead.kind != LeadKind::kBack) continue;
+    least = std::min(least, lead.radius);
+  }
+  for (const LeadFigure& lead : leads) {
+    switch (lead.kind) {
+      case LeadKind::kBack:
+        proto.set_back_count(proto.back_count() + 1);
+        [[fallthrough]];
+      case LeadKind::kArc:
+        proto.set_arc_count(proto.arc_count() + 1);
+        if (lead.whole) proto.set_whole_radius_count(proto.whole_radius_count() + 1);
+        break;
+      case LeadKind::kRamp:
+        proto.set_ramp_count(proto.ramp_count() + 1);
+        break;
+      case LeadKind::kStraight:
+        if (lead.in) {
+          proto.set_steep_count(proto.steep_count() + 1);
+        } else {
+          proto.set_straight_out_count(proto.straight_out_count() + 1);
+        }
+        break;
+    }
+  }
+  if (proto.arc_count() > 0) proto.set_least_radius_mm(least);
+  return proto;
+}
+
 v1::Place PlaceToProto(const VerifyPlace& place, const Vec3& zero) {
   v1::Place proto;
   *proto.mutable_point() = ToProto(Vec3(place.point - zero));
@@ -295,7 +327,7 @@ v1::Report ToProto(const JobReport& from, const Job& job, const Resolved& resolv
   v1::Report report;
   const Vec3& zero = resolved.program_zero;
   report.set_outcome(ToProto(from.outcome));
-  if (from.outcome == Outcome::kNothingToCut) {
+  if (from.outcome == Outcome::kNothingToCut || from.outcome == Outcome::kNeedsRoughing) {
     report.set_gouge_check(v1::CHECK_STATE_NOT_CHECKED);
     report.set_finish_check(v1::CHECK_STATE_NOT_CHECKED);
     report.set_motion_check(v1::CHECK_STATE_NOT_CHECKED);
@@ -312,6 +344,9 @@ v1::Report ToProto(const JobReport& from, const Job& job, const Resolved& resolv
   report.set_least_cut_length_mm(Number(from.least_cut_length));
   report.set_point_count(from.point_count);
   report.set_retract_count(from.motion.retract_count);
+  *report.mutable_leads() = LeadsToProto(from.leads);
+  report.set_rapids_saved_by_stated_stock_mm(
+      StockIsStated(job.setup) ? 0.0 : Number(from.motion.saved_by_low_rapids));
   report.set_certificate_defect_count(static_cast<int>(from.certificate_defects));
   for (std::size_t id = 0; id < from.regions.size(); ++id) {
     *report.add_regions() =

@@ -5,6 +5,7 @@
 #include "server/convert/enums.h"
 #include "server/convert/fields.h"
 #include "server/convert/outline.h"
+#include "server/convert/stock.h"
 #include "server/limits.h"
 
 namespace patchmill {
@@ -100,19 +101,7 @@ Setup FromProto(const v1::Setup& proto, std::string_view at, FieldErrors& errors
   } else {
     setup.zero = FromProto(proto.zero_anchor(), At(at, "zero_anchor"), errors);
   }
-  const v1::Stock& stock = proto.stock();
-  if (stock.has_top_z_mm()) {
-    constexpr double kMost = limits::kMaxCoordinateMm;
-    Require(errors, At(at, "stock.top_z_mm"), stock.top_z_mm(), std::abs(stock.top_z_mm()) <= kMost,
-            fmt::format("in [{}, {}]", -kMost, kMost));
-    setup.stock_top_z = stock.top_z_mm();
-  }
-  if (stock.has_allowance_mm()) {
-    Require(errors, At(at, "stock.allowance_mm"), stock.allowance_mm(),
-            stock.allowance_mm() >= 0.0 && stock.allowance_mm() <= limits::kMaxAllowanceMm,
-            fmt::format("in [0, {}]", limits::kMaxAllowanceMm));
-    setup.allowance = stock.allowance_mm();
-  }
+  ReadStock(proto.stock(), At(at, "stock"), setup, errors);
   ReadObstacles(proto.obstacles(), at, setup, errors);
   return setup;
 }
@@ -172,8 +161,7 @@ v1::Setup ToProto(const Setup& setup) {
   } else {
     proto.set_zero_anchor(ToProto(setup.zero));
   }
-  if (setup.stock_top_z) proto.mutable_stock()->set_top_z_mm(*setup.stock_top_z);
-  proto.mutable_stock()->set_allowance_mm(setup.allowance);
+  *proto.mutable_stock() = StockToProto(setup);
   for (const ObstacleOutline& o : setup.obstacles) {
     v1::Obstacle& obstacle = *proto.add_obstacles();
     obstacle.set_id(Utf8(o.id));

@@ -129,7 +129,11 @@ absl::Status HandleCheckModel(const Call& call, const v1::CheckModelRequest& req
                         CheckModel(surface, tool, ReachTolerance(job.operation.tolerance), run));
     for (const Diagnostic& remark : Placed(model.remarks, job.setup.placement))
       check.findings.push_back(remark);
-    if (model.unitless) check.findings.push_back(UnitFinding(check.box, tool));
+    if (model.unitless) {
+      check.findings.push_back(UnitFinding(check.box, tool));
+    } else if (std::optional<Diagnostic> huge = HugeModelFinding(check.box)) {
+      check.findings.push_back(*std::move(huge));
+    }
     AddDiagnostics(check.findings, resolved.program_zero, response->mutable_diagnostics());
     *response->mutable_box() = ToProto(check.box, resolved.program_zero);
     if (std::isfinite(check.min_concave_radius))

@@ -56,6 +56,15 @@ Diagnostic UnitFinding(const Box3& box, const std::optional<Tool>& tool) {
   return MakeWarning("SUSPICIOUS_SIZE", message + "; is the scale right?");
 }
 
+std::optional<Diagnostic> HugeModelFinding(const Box3& box) {
+  constexpr double kHuge = 10000.0;  // mm
+  const double extent = (box.max - box.min).maxCoeff();
+  if (!(extent > kHuge)) return std::nullopt;
+  return MakeWarning(
+      "SUSPICIOUS_SIZE",
+      fmt::format("the model is {:.4g} mm large; are the unit of the file and the scale right?", extent));
+}
+
 absl::StatusOr<PreparedJob> PrepareJob(const v1::Job& job, const v1::Post& post, const RunContext& run,
                                        InFlight& in_flight) {
   PreparedJob prepared;

@@ -45,6 +45,10 @@ Diagnostics Placed(Diagnostics remarks, const Placement& placement);
 // looks wrong [machining M14].
 Diagnostic UnitFinding(const Box3& box, const std::optional<Tool>& tool);
 
+// SUSPICIOUS_SIZE for a model that is larger than machines are, whatever unit its file states
+// [machining M14]; nullopt for any other.
+std::optional<Diagnostic> HugeModelFinding(const Box3& box);
+
 // OK for a model without faults, else MODEL_INVALID with the faults.
 absl::Status RequireSound(const LoadedModel& model);
 

@@ -1,4 +1,4 @@
-foreach(folder toolpath location region path link post verify picture)
+foreach(folder limits toolpath location region path link post verify picture)
   patchmill_test(cam/${folder} DEPS cam/plan)
 endforeach()
 patchmill_test(cam/plan DEPS cam/plan tests/support/jobs)

@@ -435,15 +435,12 @@ TEST_F(Cli, RegionsKnowTheShank) {
   EXPECT_THAT(mill.err, AllOf(HasSubstr("skipped   regions 0 ("), HasSubstr("AVOIDED")));
 }
 
-TEST_F(Cli, LowRapidsNeedTheStock) {
+TEST_F(Cli, RapidsAreLowWhereTheStockIsStated) {
   const std::vector<std::string> lines = {"--floor", "-5", "--one-way"};
   const auto with = [&](std::vector<std::string> more) {
     more.insert(more.end(), lines.begin(), lines.end());
     return more;
   };
-  const Finished assumed = Mill(waves_, with({"--low-rapids"}));
-  EXPECT_NE(assumed.status, 0);
-  EXPECT_THAT(assumed.err, HasSubstr("--allowance"));
   const auto rapid_length = [&](std::vector<std::string> more) {
     more.insert(more.end(), {"--report", out_ / "r.json"});
     const Finished mill = Mill(waves_, with(std::move(more)));
@@ -452,7 +449,9 @@ TEST_F(Cli, LowRapidsNeedTheStock) {
     EXPECT_TRUE(google::protobuf::util::JsonStringToMessage(Slurp(out_ / "r.json"), &report).ok());
     return report.rapid_length_mm();
   };
-  EXPECT_LT(rapid_length({"--allowance", "0.3", "--low-rapids"}), 0.8 * rapid_length({"--allowance", "0.3"}));
+  const double high = rapid_length({"--allowance", "0.3", "--high-rapids"});
+  EXPECT_LT(rapid_length({"--allowance", "0.3"}), 0.8 * high);
+  EXPECT_EQ(rapid_length({"--low-rapids"}), rapid_length({}));
 }
 
 // Regions are listed with ids, switched off by id or by point, and verified alike.

@@ -22,6 +22,7 @@ using testing::StatusIs;
 using Request = v1::GenerateProgramRequest;
 
 v1::Setup& SetupOf(Request& r) { return *r.mutable_job()->mutable_setup(); }
+v1::Stock& StockOf(Request& r) { return *SetupOf(r).mutable_stock(); }
 v1::Operation& OperationOf(Request& r) { return *r.mutable_job()->mutable_operations(0); }
 v1::Tool& ToolOf(Request& r) { return *OperationOf(r).mutable_tool(); }
 v1::Heights& HeightsOf(Request& r) { return *OperationOf(r).mutable_heights(); }
@@ -113,12 +114,30 @@ INSTANTIATE_TEST_SUITE_P(
               "job.name has 101 bytes"},
         Wrong{"ApproachGap", [](Request& r) { HeightsOf(r).set_approach_gap_mm(0); },
               "job.operations[0].heights.approach_gap_mm = 0; must be in (0, 100]"},
-        Wrong{"LowRapidsOverUnknownStock",
+        Wrong{"LeadRadius", [](Request& r) { OperationOf(r).mutable_leads()->set_radius_mm(0); },
+              "job.operations[0].leads.radius_mm = 0; must be in (0, 1000]"},
+        Wrong{"LeadSweep", [](Request& r) { OperationOf(r).mutable_leads()->set_sweep_deg(91); },
+              "job.operations[0].leads.sweep_deg = 91; must be in [10, 90]"},
+        Wrong{"PlungeAngle", [](Request& r) { OperationOf(r).mutable_feeds()->set_plunge_angle_deg(31); },
+              "job.operations[0].feeds.plunge_angle_deg = 31; must be in [1, 30]"},
+        Wrong{"LinkFeed", [](Request& r) { OperationOf(r).mutable_feeds()->set_link_mm_per_min(0); },
+              "job.operations[0].feeds.link_mm_per_min = 0; must be in [0.1, 1e+06]"},
+        Wrong{"LeadFeed", [](Request& r) { OperationOf(r).mutable_feeds()->set_lead_mm_per_min(kNan); },
+              "job.operations[0].feeds.lead_mm_per_min = nan"},
+        Wrong{"AcceptDepth", [](Request& r) { OperationOf(r).set_accept_depth_mm(-1); },
+              "job.operations[0].accept_depth_mm = -1; must be in [0, 1000]"},
+        Wrong{"StockBlock", [](Request& r) { StockOf(r).mutable_block()->set_margin_mm(-1); },
+              "job.setup.stock.block.margin_mm = -1; must be in [0, 10000]"},
+        Wrong{"StockCylinder", [](Request& r) { StockOf(r).mutable_cylinder()->set_diameter_mm(0); },
+              "job.setup.stock.cylinder.diameter_mm = 0; must be in (0, 100000]"},
+        Wrong{"StockCylinderCenter",
               [](Request& r) {
-                r.mutable_job()->mutable_setup()->clear_stock();
-                HeightsOf(r).set_low_rapids(true);
+                StockOf(r).mutable_cylinder()->set_diameter_mm(10);
+                StockOf(r).mutable_cylinder()->add_center_xy_mm(1);
               },
-              "job.operations[0].heights.low_rapids is set; needs setup.stock.allowance_mm"},
+              "job.setup.stock.cylinder.center_xy_mm has 1 numbers; must have 2, x and y"},
+        Wrong{"StockOutline", [](Request& r) { StockOf(r).mutable_outline()->add_outline_xy_mm(1); },
+              "job.setup.stock.outline.outline_xy_mm has 1 numbers; must be packed x y"},
         Wrong{"ClearanceNan", [](Request& r) { HeightsOf(r).set_clearance_z_mm(kNan); },
               "job.operations[0].heights.clearance_z_mm = nan"},
         Wrong{"ClearanceAboveZero", [](Request& r) { HeightsOf(r).set_clearance_above_mm(0); },
@@ -348,6 +367,7 @@ Request Unusual() {
   SetupOf(r).mutable_translation()->set_z_mm(3);
   SetupOf(r).mutable_stock()->set_top_z_mm(40);
   SetupOf(r).mutable_stock()->set_allowance_mm(0.75);
+  SetupOf(r).mutable_stock()->mutable_block()->set_margin_mm(12);
   v1::Tool& tool = ToolOf(r);
   tool.set_number(7);
   tool.set_name("ball 6");
@@ -371,7 +391,13 @@ Request Unusual() {
   op.set_edge_rule(v1::EDGE_RULE_ROLL);
   op.mutable_heights()->set_clearance_z_mm(70);
   op.mutable_heights()->set_approach_gap_mm(2);
-  op.mutable_heights()->set_low_rapids(true);
+  op.mutable_heights()->set_high_rapids(true);
+  op.mutable_leads()->set_radius_mm(2.25);
+  op.mutable_leads()->set_sweep_deg(60);
+  op.mutable_feeds()->set_plunge_angle_deg(20);
+  op.mutable_feeds()->set_link_mm_per_min(2000);
+  op.mutable_feeds()->set_lead_mm_per_min(600);
+  op.set_accept_depth_mm(1.5);
   op.mutable_heights()->set_floor_z_mm(-3);
   op.mutable_heights()->set_top_z_mm(30);
   v1::Obstacle& obstacle = *SetupOf(r).add_obstacles();
@@ -470,10 +496,19 @@ TEST(JobDigestTest, SeesEveryFieldAndNoDefault) {
   EXPECT_TRUE(differs([](Request& r) { OperationOf(r).set_detail(0.0); }));
   EXPECT_TRUE(differs([](Request& r) { HeightsOf(r).set_floor_z_mm(-2); }));
   EXPECT_TRUE(differs([](Request& r) { HeightsOf(r).set_top_z_mm(2); }));
+  EXPECT_TRUE(differs([](Request& r) { HeightsOf(r).set_high_rapids(true); }));
+  EXPECT_FALSE(differs([](Request& r) { HeightsOf(r).set_low_rapids(true); }));  // without effect
+  EXPECT_TRUE(differs([](Request& r) { StockOf(r).mutable_block(); }));
+  EXPECT_TRUE(differs([](Request& r) { StockOf(r).mutable_cylinder()->set_diameter_mm(90); }));
   EXPECT_TRUE(differs([](Request& r) {
-    SetupOf(r).mutable_stock()->set_allowance_mm(0.5);
-    HeightsOf(r).set_low_rapids(true);
+    AddRing({0, 0, 9, 0, 0, 9}, StockOf(r).mutable_outline()->mutable_outline_xy_mm());
   }));
+  EXPECT_TRUE(differs([](Request& r) { OperationOf(r).mutable_leads()->set_radius_mm(2); }));
+  EXPECT_TRUE(differs([](Request& r) { OperationOf(r).mutable_leads()->set_sweep_deg(80); }));
+  EXPECT_TRUE(differs([](Request& r) { OperationOf(r).mutable_feeds()->set_plunge_angle_deg(20); }));
+  EXPECT_TRUE(differs([](Request& r) { OperationOf(r).mutable_feeds()->set_link_mm_per_min(900); }));
+  EXPECT_TRUE(differs([](Request& r) { OperationOf(r).mutable_feeds()->set_lead_mm_per_min(900); }));
+  EXPECT_TRUE(differs([](Request& r) { OperationOf(r).set_accept_depth_mm(1); }));
   EXPECT_TRUE(differs([](Request& r) { SelectionOf(r).add_patch_ids("bump"); }));
   EXPECT_TRUE(differs([](Request& r) { SelectionOf(r).add_avoid_patch_ids("bump"); }));
   EXPECT_TRUE(differs([](Request& r) { OperationOf(r).set_regions_sha256(std::string(32, 'x')); }));

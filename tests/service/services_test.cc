@@ -151,6 +151,20 @@ TEST(CheckModel, AFileWithoutAUnitIsSaidToBeMillimeters) {
   EXPECT_EQ(code(50.0), "UNIT_ASSUMED");
 }
 
+TEST(CheckModel, AHugeModelIsRemarkedOnWhateverItsUnit) {
+  Embedded embedded;
+  const auto has_warning = [&](double scale) {
+    v1::CheckModelRequest request = CheckBump();
+    request.mutable_setup()->set_scale(scale);
+    v1::CheckModelResponse response;
+    EXPECT_TRUE(embedded.Check(request, &response).ok());
+    return std::any_of(response.diagnostics().begin(), response.diagnostics().end(),
+                       [](const v1::Diagnostic& d) { return d.code() == "SUSPICIOUS_SIZE"; });
+  };
+  EXPECT_FALSE(has_warning(1.0));
+  EXPECT_TRUE(has_warning(3000.0));
+}
+
 TEST(CheckModel, WrongRequestsAreAStatusWithDetails) {
   Embedded embedded;
   v1::CheckModelResponse response;

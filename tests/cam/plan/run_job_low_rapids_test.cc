@@ -57,7 +57,7 @@ TEST(LowRapids, ClearTheStockOverTheRectangleOnRandomParts) {
     Job job = BallJob(part.radius);
     job.operation.one_way = i % 3 == 0;
     const JobResult high = Mill(surface, job);
-    job.operation.low_rapids = true;
+    job.setup.allowance_stated = true;
     const JobResult result = Mill(surface, job);
     ASSERT_EQ(result.report.outcome, high.report.outcome) << Describe(result);
     if (result.program.empty()) continue;
@@ -80,7 +80,7 @@ TEST(LowRapids, AreAsHighAsTheSurfaceBetween) {
   const Surface surface = PlacedSurface(Join(
       {Plane(40), Cylinder(Vec3::Zero(), 6, 40, Half::kUpper), Sphere(Vec3(30, 30, 20), 5, Half::kAll)}));
   Job job = LimitedJob();
-  job.operation.low_rapids = true;
+  job.setup.allowance_stated = true;
   job.operation.selection.boundary = {RingOfBox(-20, -20, -12, -10), RingOfBox(12, -20, 20, -10)};
   const JobResult result = Mill(surface, job);
   ASSERT_EQ(result.report.outcome, Outcome::kCompleteWhereReachable) << Describe(result);
@@ -97,7 +97,7 @@ TEST(LowRapids, AreAsHighAsTheSurfaceBetween) {
 TEST(LowRapids, PassOverClampsWithTheirMargins) {
   const Surface surface = PlacedSurface(Plane(40));
   Job job = LimitedJob();
-  job.operation.low_rapids = true;
+  job.setup.allowance_stated = true;
   job.setup.stock_top_z = 12.0;
   job.operation.selection.boundary = {RingOfBox(-20, -20, -12, 10), RingOfBox(12, -20, 20, 10)};
   job.setup.obstacles = {{"clamp", RingOfBox(-1, -40, 1, 40), 5.0, 2.0}};
@@ -119,7 +119,7 @@ TEST(LowRapids, PassOverClampsWithTheirMargins) {
 TEST(LowRapids, KeepTheMarginOfAvoidedPatches) {
   const Surface surface = PlacedSurface(Join({Plane(40), Cylinder(Vec3::Zero(), 6, 40, Half::kUpper)}));
   Job job = LimitedJob();
-  job.operation.low_rapids = true;
+  job.setup.allowance_stated = true;
   job.setup.stock_top_z = 30.0;
   job.operation.selection.boundary = {RingOfBox(-25, -20, -16, -10), RingOfBox(16, -20, 25, -10)};
   for (std::size_t i = 1; i < surface.network.model.patches.size(); ++i)

@@ -165,7 +165,7 @@ TEST(WideShank, KeepsAMarginAboveItsFlutes) {
   const Surface low =
       PlacedSurface(Join({Plane(25), Single(Bilinear({5, -5, 0}, {5, 5, 0}, {5, -5, 5}, {5, 5, 5}))}));
   Job job = job_of(4.0, 6.0);
-  job.operation.low_rapids = true;
+  job.setup.allowance_stated = true;
   job.operation.clearance_above = 12.0;
   const JobResult result = Mill(low, job);
   EXPECT_TRUE(result.report.verify.ok()) << Describe(result);
