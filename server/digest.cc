@@ -120,6 +120,14 @@ void AddStock(const Setup& setup, Canonical& out) {
   }
 }
 
+void AddMachine(const Machine& machine, Canonical& out) {
+  out.Add("machine").Add(machine.name).Add(machine.junction_deviation);
+  out.Add(machine.spindle_min).Add(machine.spindle_max);
+  for (const MachineAxis& axis : machine.axes)
+    out.Add(axis.travel_min).Add(axis.travel_max).Add(axis.rapid).Add(axis.feed).Add(axis.acceleration);
+  if (machine.work_zero) AddPoint(*machine.work_zero, out);
+}
+
 // Leads, links and their feeds.
 void AddMotion(const Operation& op, Canonical& out) {
   const Operation usual;
@@ -162,6 +170,7 @@ void AddLimits(const Job& job, Canonical& out) {
   if (!job.setup.up_face.empty()) out.Add("up face").Add(job.setup.up_face);
   if (job.operation.one_way) out.Add("one way");
   AddStock(job.setup, out);
+  if (job.setup.machine) AddMachine(*job.setup.machine, out);
   AddMotion(job.operation, out);
   if (job.operation.spirals) out.Add("spirals");
   if (!job.operation.border_passes) out.Add("no border passes");

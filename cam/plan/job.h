@@ -12,6 +12,8 @@
 #include "cam/post/program_writer.h"
 #include "cam/region/map/region_map.h"
 #include "cam/tool/tool.h"
+#include "cam/toolpath/machine.h"
+#include "cam/toolpath/motion_time.h"
 #include "cam/toolpath/path_amount.h"
 #include "cam/verify/verify.h"
 #include "core/network/patch_model.h"
@@ -59,6 +61,7 @@ struct Setup {
   // points up, or the outer normal of a plane face. At most one is set.
   bool up_auto = false;
   std::string up_face = {};  // id
+  std::optional<Machine> machine = std::nullopt;
 };
 
 // True if the client has stated what stock there is.
@@ -196,6 +199,7 @@ struct JobReport {
   VerifyReport verify;
   LinkStats motion;
   std::vector<LeadFigure> leads;
+  std::optional<ToolpathTimes> times;     // on Setup::machine
   double min_concave_radius = kInfinity;  // mm, smallest on the reachable side; infinity: none
   double controller_tolerance = 0.0;      // mm
   double least_cut_length = 0.0;  // mm: no passes of this finish are shorter together (LeastCutLength)

@@ -197,6 +197,7 @@ VerifyParams MakeVerifyParams(const Job& job, const Resolved& resolved, const st
   p.stock_top_z = resolved.stock_top_z;
   p.allowance = job.setup.allowance;
   p.stock = resolved.stock;
+  p.machine = job.setup.machine;
   p.depth_limit = resolved.depth_limit;
   p.containment = resolved.containment;
   return p;

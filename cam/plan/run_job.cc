@@ -454,6 +454,8 @@ absl::StatusOr<JobResult> PlanAndJudge(const Surface& surface, const Job& job, c
   report.diagnostics.insert(report.diagnostics.end(), beside.begin(), beside.end());
   clock.Done("link");
   report.leads = result.motion.leads;
+  if (job.setup.machine)
+    report.times = TimesOn(*job.setup.machine, result.motion.toolpath, result.regions.regions.size());
   const Diagnostics steep = SteepLeads(report.leads, resolved);
   report.diagnostics.insert(report.diagnostics.end(), steep.begin(), steep.end());
   if (resolved.stock != nullptr) {

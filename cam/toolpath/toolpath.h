@@ -12,6 +12,7 @@
 namespace patchmill {
 
 enum class MoveKind { kRapid, kApproach, kPlunge, kLead, kCut, kLink, kRetract };
+constexpr MoveKind LastOf(MoveKind) { return MoveKind::kRetract; }
 
 // The place where the ball touches the surface.
 struct MoveContact {

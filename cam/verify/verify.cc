@@ -12,6 +12,7 @@
 #include "cam/verify/leftover.h"
 #include "cam/verify/leftover_map.h"
 #include "cam/verify/leftover_spread.h"
+#include "cam/verify/machine_limits.h"
 #include "cam/verify/motion_figures.h"
 #include "cam/verify/motion_rules.h"
 #include "cam/verify/motion_sets.h"
@@ -334,6 +335,10 @@ class Verifier {
     PM_RETURN_IF_ERROR(JudgeAvoided());
     Diagnostics broken = BrokenMotionRules(motion_, params_, figures);
     PM_RETURN_IF_ERROR(JudgeDescents(figures));
+    if (params_.machine) {
+      const Diagnostics beyond_machine = BeyondMachine(motion_, *params_.machine);
+      broken.insert(broken.end(), beyond_machine.begin(), beyond_machine.end());
+    }
     const double slack = std::max(0.0, params_.tolerance - motion_.controller_tolerance);
     const Diagnostics beyond =
         BrokenLimits(surface_, motion_, {limits_->centers(), radius_, offset_, slack}, run_);

@@ -21,6 +21,7 @@
 #include "cam/limits/stock_solid.h"
 #include "cam/limits/surface_mask.h"
 #include "cam/tool/tool.h"
+#include "cam/toolpath/machine.h"
 #include "cam/toolpath/toolpath.h"
 #include "core/base/diagnostic.h"
 #include "core/base/enum_array.h"
@@ -57,6 +58,7 @@ struct VerifyParams {
   // The stock beside and over the part; null: none but the allowance.
   std::shared_ptr<const StockSolid> stock = nullptr;
   double depth_limit = 0.5;  // mm; feeds may cut so deep into the stock
+  std::optional<Machine> machine = std::nullopt;
   // Parts with a finish of their own. Places in none of them are not to be finished. If empty, the whole
   // surface has the finish above.
   std::vector<FinishPart> parts;
@@ -120,7 +122,7 @@ struct VerifyReport {
   Box3 tip_box;                                 // program frame; places of the tip below machine zero
   double cut_length = 0.0, rapid_length = 0.0;  // mm, of moves that do not touch machine zero
   // Errors: GOUGE, SHANK_GOUGE, LEFTOVER, RAPID_IN_STOCK, RAPID_DOG_LEG, OUTSIDE_BOUNDARY (feeds), ABOVE_TOP
-  // (feeds), OBSTACLE_HIT, CUT_TOO_DEEP,
+  // (feeds), OBSTACLE_HIT, CUT_TOO_DEEP, BEYOND_TRAVEL, FEED_BEYOND_RANGE,
   // SHANK_IN_STOCK, BESIDE_PART, AVOID_MARGIN (of each of these codes at most 20, of different lines
   // and places, the worst first), CONTROL_SMOOTHING, BELOW_FLOOR, STEEP_DESCENT, UNKNOWN_START,
   // FIRST_MOTION_NOT_UP, LAST_MOTION_NOT_UP, SPINDLE_STOPPED, SPINDLE_LEFT_ON, COOLANT_LEFT_ON.

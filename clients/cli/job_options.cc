@@ -11,6 +11,7 @@
 #include "clients/cli/input_file.h"
 #include "clients/cli/stock_option.h"
 #include "clients/cli/text.h"
+#include "proto/json/json_message.h"
 
 namespace patchmill::cli {
 namespace {
@@ -170,7 +171,24 @@ void AddStockOptions(CLI::App& app, SetupOptions& options) {
                  "the stock as it lies on the machine, up to --stock-top: block[,MARGIN] around the model |\n"
                  "cylinder,D[,X,Y] | \"outline: X,Y X,Y ...\" | outline:@FILE. It is whole, or with "
                  "--allowance it has been\nroughed to that over the part and stands beside it");
+  app.add_option(
+      "--machine", options.machine,
+      "the machine as a .json file: travel, speeds and accelerations of its axes (docs/motion.md). Moves "
+      "and\nfeeds beyond them are errors, and the time includes accelerations");
 }
+
+namespace {
+
+absl::Status ReadMachine(const std::string& path, v1::Machine& machine) {
+  absl::StatusOr<std::string> text = ReadWholeFile(path);
+  if (!text.ok()) return text.status();
+  const absl::Status read = ReadJsonMessage(*text, machine);
+  if (read.ok()) return read;
+  return absl::InvalidArgumentError(
+      fmt::format("--machine {}: no machine in JSON: {}", path, std::string(read.message())));
+}
+
+}  // namespace
 
 absl::StatusOr<v1::Setup> MakeSetup(const SetupOptions& options) {
   v1::Setup setup;
@@ -201,6 +219,10 @@ absl::StatusOr<v1::Setup> MakeSetup(const SetupOptions& options) {
   }
   if (options.stock_top) setup.mutable_stock()->set_top_z_mm(*options.stock_top);
   if (options.allowance) setup.mutable_stock()->set_allowance_mm(*options.allowance);
+  if (!options.machine.empty()) {
+    if (const absl::Status read = ReadMachine(options.machine, *setup.mutable_machine()); !read.ok())
+      return read;
+  }
   if (!options.stock.empty()) {
     if (const absl::Status read = ReadStockBody(options.stock, *setup.mutable_stock()); !read.ok())
       return read;

@@ -21,7 +21,7 @@ struct SetupOptions {
   std::string zero = "origin";
   std::optional<double> stock_top;
   std::optional<double> allowance;
-  std::string stock;
+  std::string stock, machine;
 };
 
 // The tool above its ball.

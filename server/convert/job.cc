@@ -71,6 +71,13 @@ void ReadFeeds(const v1::Feeds& proto, const std::string& at, Operation& op, Fie
   if (proto.has_lead_mm_per_min()) op.lead_feed = feed("lead_mm_per_min", proto.lead_mm_per_min());
 }
 
+void CheckSpindle(const Tool& tool, const Machine& machine, const std::string& at, FieldErrors& errors) {
+  if (machine.spindle_max <= 0.0) return;
+  Require(errors, At(at, "spindle_rpm"), tool.spindle_rpm,
+          tool.spindle_rpm >= machine.spindle_min && tool.spindle_rpm <= machine.spindle_max,
+          fmt::format("in the range of the machine, [{:g}, {:g}]", machine.spindle_min, machine.spindle_max));
+}
+
 void ReadPost(const v1::Post& proto, Job& job, FieldErrors& errors) {
   job.dialect = ReadDialect(proto.dialect(), proto.post_file(), "post.", errors);
   if (proto.arcs()) errors.NotYet("post.arcs", "programs have straight moves only");
@@ -203,6 +210,7 @@ Job FromProto(const v1::Job& proto, const v1::Post& post, std::string_view at, F
   } else {
     const std::string path = At(at, "operations[0]");
     job.operation = FromProto(proto.operations(0), path, errors);
+    if (job.setup.machine) CheckSpindle(job.operation.tool, *job.setup.machine, At(path, "tool"), errors);
     job.default_cutting_data = proto.operations(0).tool().cutting_data_is_default();
     // The stock to leave is part of the allowance.
     if (!job.setup.allowance_stated) job.setup.allowance = std::max(job.setup.allowance, job.operation.leave);

@@ -22,6 +22,16 @@ double Number(double x) { return std::isfinite(x) ? x : 0.0; }
 
 v1::CheckState State(bool ok) { return ok ? v1::CHECK_STATE_PASSED : v1::CHECK_STATE_FAILED; }
 
+void AddTimes(const ToolpathTimes& times, v1::Report& report) {
+  for (const MoveKind kind : Enumerators<MoveKind>()) {
+    if (times.of_kind[kind] <= 0.0) continue;
+    v1::TimeOfKind& to = *report.add_times_of_kinds();
+    to.set_kind(ToProto(kind));
+    to.set_time_s(Number(times.of_kind[kind]));
+  }
+  for (const double time : times.of_region) report.add_region_time_s(Number(time));
+}
+
 v1::LeadFigures LeadsToProto(const std::vector<LeadFigure>& leads) {
   v1::LeadFigures proto;
   double least = kInfinity;
@@ -339,8 +349,9 @@ v1::Report ToProto(const JobReport& from, const Job& job, const Resolved& resolv
   }
   *report.mutable_setup_sheet() = ToProto(resolved, job);
   if (std::isfinite(from.min_concave_radius)) report.set_min_concave_radius_mm(from.min_concave_radius);
-  report.set_estimated_time_s(Number(from.motion.time));
-  report.set_time_basis("feeds only");
+  report.set_estimated_time_s(Number(from.times ? from.times->total : from.motion.time));
+  report.set_time_basis(from.times ? "accelerations" : "feeds only");
+  if (from.times) AddTimes(*from.times, report);
   report.set_least_cut_length_mm(Number(from.least_cut_length));
   report.set_point_count(from.point_count);
   report.set_retract_count(from.motion.retract_count);

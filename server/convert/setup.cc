@@ -4,6 +4,7 @@
 
 #include "server/convert/enums.h"
 #include "server/convert/fields.h"
+#include "server/convert/machine.h"
 #include "server/convert/outline.h"
 #include "server/convert/stock.h"
 #include "server/limits.h"
@@ -103,6 +104,7 @@ Setup FromProto(const v1::Setup& proto, std::string_view at, FieldErrors& errors
   }
   ReadStock(proto.stock(), At(at, "stock"), setup, errors);
   ReadObstacles(proto.obstacles(), at, setup, errors);
+  if (proto.has_machine()) setup.machine = FromProto(proto.machine(), At(at, "machine"), errors);
   return setup;
 }
 
@@ -162,6 +164,7 @@ v1::Setup ToProto(const Setup& setup) {
     proto.set_zero_anchor(ToProto(setup.zero));
   }
   *proto.mutable_stock() = StockToProto(setup);
+  if (setup.machine) *proto.mutable_machine() = ToProto(*setup.machine);
   for (const ObstacleOutline& o : setup.obstacles) {
     v1::Obstacle& obstacle = *proto.add_obstacles();
     obstacle.set_id(Utf8(o.id));

@@ -27,6 +27,25 @@ v1::Operation& OperationOf(Request& r) { return *r.mutable_job()->mutable_operat
 v1::Tool& ToolOf(Request& r) { return *OperationOf(r).mutable_tool(); }
 v1::Heights& HeightsOf(Request& r) { return *OperationOf(r).mutable_heights(); }
 
+void SetMachine(Request& r) {
+  v1::Machine& machine = *SetupOf(r).mutable_machine();
+  machine.set_name("mill");
+  for (int k = 0; k < 3; ++k) {
+    v1::MachineAxis& axis = *machine.add_axes();
+    axis.set_travel_min_mm(-150);
+    axis.set_travel_max_mm(150 + k);
+    axis.set_rapid_mm_per_min(8000);
+    axis.set_feed_mm_per_min(4000);
+    axis.set_acceleration_mm_per_s2(600 - k);
+  }
+  machine.set_junction_deviation_mm(0.02);
+  machine.set_spindle_min_rpm(100);
+  machine.set_spindle_max_rpm(24000);
+  machine.mutable_work_zero()->set_x_mm(-40);
+  machine.mutable_work_zero()->set_y_mm(12);
+  machine.mutable_work_zero()->set_z_mm(-80);
+}
+
 absl::Status Convert(const Request& request) {
   FieldErrors errors;
   FromProto(request.job(), request.post(), "job", errors);
@@ -136,6 +155,26 @@ INSTANTIATE_TEST_SUITE_P(
                 StockOf(r).mutable_cylinder()->add_center_xy_mm(1);
               },
               "job.setup.stock.cylinder.center_xy_mm has 1 numbers; must have 2, x and y"},
+        Wrong{"MachineAxes", [](Request& r) { SetupOf(r).mutable_machine()->add_axes(); },
+              "job.setup.machine.axes has 1 elements; must have 3, X, Y and Z"},
+        Wrong{"MachineTravel",
+              [](Request& r) {
+                SetMachine(r);
+                SetupOf(r).mutable_machine()->mutable_axes(1)->set_travel_max_mm(-200);
+              },
+              "job.setup.machine.axes[1].travel_max_mm = -200; must be above travel_min_mm = -150"},
+        Wrong{"MachineAcceleration",
+              [](Request& r) {
+                SetMachine(r);
+                SetupOf(r).mutable_machine()->mutable_axes(2)->set_acceleration_mm_per_s2(0);
+              },
+              "job.setup.machine.axes[2].acceleration_mm_per_s2 = 0; must be in [0.1, 1e+06]"},
+        Wrong{"MachineSpindle",
+              [](Request& r) {
+                SetMachine(r);
+                ToolOf(r).set_spindle_rpm(30000);
+              },
+              "job.operations[0].tool.spindle_rpm = 30000; must be in the range of the machine, [100, 24000]"},
         Wrong{"StockOutline", [](Request& r) { StockOf(r).mutable_outline()->add_outline_xy_mm(1); },
               "job.setup.stock.outline.outline_xy_mm has 1 numbers; must be packed x y"},
         Wrong{"ClearanceNan", [](Request& r) { HeightsOf(r).set_clearance_z_mm(kNan); },
@@ -368,6 +407,7 @@ Request Unusual() {
   SetupOf(r).mutable_stock()->set_top_z_mm(40);
   SetupOf(r).mutable_stock()->set_allowance_mm(0.75);
   SetupOf(r).mutable_stock()->mutable_block()->set_margin_mm(12);
+  SetMachine(r);
   v1::Tool& tool = ToolOf(r);
   tool.set_number(7);
   tool.set_name("ball 6");
@@ -497,6 +537,7 @@ TEST(JobDigestTest, SeesEveryFieldAndNoDefault) {
   EXPECT_TRUE(differs([](Request& r) { HeightsOf(r).set_floor_z_mm(-2); }));
   EXPECT_TRUE(differs([](Request& r) { HeightsOf(r).set_top_z_mm(2); }));
   EXPECT_TRUE(differs([](Request& r) { HeightsOf(r).set_high_rapids(true); }));
+  EXPECT_TRUE(differs([](Request& r) { SetMachine(r); }));
   EXPECT_FALSE(differs([](Request& r) { HeightsOf(r).set_low_rapids(true); }));  // without effect
   EXPECT_TRUE(differs([](Request& r) { StockOf(r).mutable_block(); }));
   EXPECT_TRUE(differs([](Request& r) { StockOf(r).mutable_cylinder()->set_diameter_mm(90); }));

@@ -280,6 +280,49 @@ TEST(VerifyMotion, DescentsCutIntoSmallStepsAreStillSteep) {
   }
 }
 
+// Clear of the stock a descent may be as fast as any feed; where it meets the allowance it may not.
+TEST(VerifyMotion, DescentsThroughAirMayBeFast) {
+  const Surface surface = SurfaceOf(Plane(5.0));
+  Tool tool = Ball(3.0);
+  tool.plunge_feed = 100;
+  const VerifyParams params = Params(1.0);
+  const auto judged = [&](double z) {
+    const std::string text =
+        fmt::format("G21 G90\nG53 G0 Z0 S9 M3\nG0 X0 Y0\nZ6\nG1 Z{:.4f} F900\nG0 Z6\n", z);
+    return Find(Judged(surface, tool, text + kEnd, params), "STEEP_DESCENT");
+  };
+  EXPECT_EQ(judged(params.allowance + 0.001), nullptr);
+  EXPECT_NE(judged(params.allowance - 0.01), nullptr);
+}
+
+Machine SmallMachine() {
+  Machine machine;
+  for (MachineAxis& axis : machine.axes) axis = {-50.0, 50.0, 5000.0, 1000.0, 300.0};
+  return machine;
+}
+
+// Each limit of the machine is found on its first line.
+TEST(VerifyMotion, TheMachineMustReachAllPlaces) {
+  const Surface surface = SurfaceOf(Plane(5.0));
+  VerifyParams params = Params(1.0);
+  params.machine = SmallMachine();
+  const auto judged = [&](const std::string& moves) {
+    const std::string text = "G21 G90\nG53 G0 Z0 S9 M3\nG0 X0 Y0\nZ6\n" + moves;
+    return Judged(surface, Ball(3.0), text + kEnd, params);
+  };
+  EXPECT_EQ(Find(judged("G0 X60\nX-39\n"), "BEYOND_TRAVEL"), nullptr);  // its zero is not known
+  const VerifyReport wide = judged("G0 X60\nX-41\nX-44\n");
+  ASSERT_NE(Find(wide, "BEYOND_TRAVEL"), nullptr);
+  EXPECT_EQ(*Find(wide, "BEYOND_TRAVEL")->where.line, 6);
+  EXPECT_FALSE(wide.motion_ok);
+  params.machine->work_zero = Vec3(-30, 0, 0);
+  EXPECT_EQ(Find(judged("G0 X60\nX-19\n"), "BEYOND_TRAVEL"), nullptr);
+  EXPECT_EQ(*Find(judged("G0 X60\nX-21\n"), "BEYOND_TRAVEL")->where.line, 6);
+  EXPECT_EQ(*Find(judged("G0 Z51\n"), "BEYOND_TRAVEL")->where.line, 5);
+  EXPECT_EQ(Find(judged("G1 X20 Y20 F1400\n"), "FEED_BEYOND_RANGE"), nullptr);  // 990 mm/min each
+  EXPECT_EQ(*Find(judged("G1 X20 Y20 F1500\n"), "FEED_BEYOND_RANGE")->where.line, 5);
+}
+
 TEST(VerifyMotion, SmoothingOfRapidsCounts) {
   const Surface surface = SurfaceOf(Plane(10.0));
   VerifyParams params = Params(0.5);

@@ -1,0 +1,34 @@
+// The time that a machine takes for a motion, accelerations included.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "cam/toolpath/machine.h"
+#include "cam/toolpath/toolpath.h"
+#include "core/base/enum_array.h"
+
+namespace patchmill {
+
+// A straight move as a control sees it.
+struct TimedMove {
+  Vec3 way = Vec3::Zero();  // mm, from its start to its end
+  double feed = 0.0;        // mm/min; ignored for rapids
+  bool rapid = false;
+};
+
+// Returns the time of each move, s. Every axis keeps its speed and its acceleration, and speed changes evenly
+// along the path (trapezoids). A corner between two moves is passed at the speed whose centripetal
+// acceleration, on the arc that leaves the corner by the junction deviation, is that of the slower axis; it
+// is zero where the path turns back. The first move begins and the last one ends at rest. Cost O(n).
+std::vector<double> MoveTimes(std::span<const TimedMove> moves, const Machine& machine);
+
+// The time of a toolpath, s, by what its moves are for.
+struct ToolpathTimes {
+  double total = 0.0;
+  EnumArray<MoveKind, double> of_kind{};
+  std::vector<double> of_region;  // of its passes, by the region's id
+};
+ToolpathTimes TimesOn(const Machine& machine, const Toolpath& toolpath, std::size_t regions);
+
+}  // namespace patchmill

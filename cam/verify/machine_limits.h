@@ -1,0 +1,17 @@
+// Compares a program with the machine that runs it.
+#pragma once
+
+#include "cam/toolpath/machine.h"
+#include "cam/toolpath/toolpath.h"
+#include "core/base/diagnostic.h"
+
+namespace patchmill {
+
+// Returns one error with its program line for each limit that the motion exceeds, at most one for each
+// axis: - BEYOND_TRAVEL: the places of the tip lie farther apart than the axis travels, or, where the
+// machine states
+//   the program zero, beyond its travel. Machine zero does not count, because its place is not known.
+// - FEED_BEYOND_RANGE: a feed is faster than the axis may go.
+Diagnostics BeyondMachine(const ProgramMotion& motion, const Machine& machine);
+
+}  // namespace patchmill
