@@ -30,7 +30,7 @@ struct VerifyOptions {
   std::optional<double> tool_diameter;
   std::vector<std::string> tools;
   double tolerance = 0.01, leave = 0.0, zigzag_angle = 0.0, steep_angle = 45.0;
-  double detail = 0.5;
+  double detail = 0.5, accept_depth = 0.0;
   std::optional<double> scallop, floor, plunge_feed, machine_z_safe;
   bool no_finish = false;
   std::vector<std::string> assume;
@@ -99,6 +99,7 @@ absl::StatusOr<v1::VerifyProgramRequest> MakeRequest(const VerifyOptions& option
   request.set_tolerance_mm(options.tolerance);
   if (options.scallop) request.set_scallop_mm(*options.scallop);
   request.set_stock_to_leave_mm(options.leave);
+  request.set_accept_depth_mm(options.accept_depth);
   if (options.floor) request.set_floor_z_mm(*options.floor);
   request.set_strategy(MakeStrategy(options.strategy));
   request.set_zigzag_angle_deg(options.zigzag_angle);
@@ -249,6 +250,8 @@ Command AddVerify(CLI::App& app) {
   AddReadingOptions(app, options->reading);
   AddSetupOptions(app, options->setup);
   AddStockOptions(app, options->setup);
+  AddNumber(app, "--accept-depth", options->accept_depth,
+            "how deep feeds may cut into the --stock, mm, where that is more than --allowance");
   AddPostOptions(app, "--dialect,--post", options->post);
   app.add_option("--assume", options->assume,
                  "what to assume where the program does not say it: path=exact (the control stops at every "

@@ -136,6 +136,12 @@ double ReadDetail(double detail, std::string_view at, FieldErrors& errors) {
   return detail;
 }
 
+double ReadAcceptDepth(double depth_mm, std::string_view at, FieldErrors& errors) {
+  Require(errors, At(at, "accept_depth_mm"), depth_mm, depth_mm >= 0.0 && depth_mm <= limits::kMaxDepthMm,
+          fmt::format("in [0, {}]", limits::kMaxDepthMm));
+  return depth_mm;
+}
+
 Operation FromProto(const v1::Operation& proto, std::string_view at, FieldErrors& errors) {
   Operation op;
   RequireBytes(errors, At(at, "id"), proto.id(), limits::kMaxIdBytes);
@@ -194,10 +200,7 @@ Operation FromProto(const v1::Operation& proto, std::string_view at, FieldErrors
   ReadHeights(proto.heights(), At(at, "heights"), op, errors);
   ReadLeads(proto.leads(), At(at, "leads"), op, errors);
   ReadFeeds(proto.feeds(), At(at, "feeds"), op, errors);
-  op.accept_depth = proto.accept_depth_mm();
-  Require(errors, At(at, "accept_depth_mm"), op.accept_depth,
-          op.accept_depth >= 0.0 && op.accept_depth <= limits::kMaxDepthMm,
-          fmt::format("in [0, {}]", limits::kMaxDepthMm));
+  op.accept_depth = ReadAcceptDepth(proto.accept_depth_mm(), at, errors);
   ReadOverrides(proto.regions_sha256(), proto.region_overrides(), at, op, errors);
   return op;
 }

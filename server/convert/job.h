@@ -19,6 +19,7 @@ double ReadSteepAngle(double degrees, std::string_view at, FieldErrors& errors);
 Dialect ReadDialect(const std::string& name, const std::string& post_file, const std::string& at,
                     FieldErrors& errors);
 double ReadControlDeviation(double deviation_mm, const std::string& at, FieldErrors& errors);  // mm
+double ReadAcceptDepth(double depth_mm, std::string_view at, FieldErrors& errors);
 double ReadDetail(double detail, std::string_view at, FieldErrors& errors);
 
 // Reads one operation. `at` is the path of the operation.

@@ -97,6 +97,7 @@ Job ReadJob(const v1::VerifyProgramRequest& request, const std::vector<Tool>& to
     Require(errors, "top_z_mm", *op.top_z, std::abs(*op.top_z) <= kMost,
             fmt::format("in [{}, {}]", -kMost, kMost));
   }
+  op.accept_depth = ReadAcceptDepth(request.accept_depth_mm(), "", errors);
   op.selection = FromProto(request.selection(), "selection", errors);
   op.strategy = FromProto(request.strategy(), "strategy", errors);
   Require(errors, "zigzag_angle_deg", request.zigzag_angle_deg(),

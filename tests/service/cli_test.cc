@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <regex>
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <google/protobuf/util/json_util.h>
 #include <gtest/gtest.h>
@@ -452,6 +453,72 @@ TEST_F(Cli, RapidsAreLowWhereTheStockIsStated) {
   const double high = rapid_length({"--allowance", "0.3", "--high-rapids"});
   EXPECT_LT(rapid_length({"--allowance", "0.3"}), 0.8 * high);
   EXPECT_EQ(rapid_length({"--low-rapids"}), rapid_length({}));
+}
+
+// A whole block needs roughing, or its depth accepted, by mill and verify alike.
+TEST_F(Cli, StockThatIsTooDeepEndsTheJob) {
+  const std::vector<std::string> block = {"--stock", "block,4", "--stock-top", "12", "--floor", "-5"};
+  const auto with = [&](std::vector<std::string> more) {
+    more.insert(more.end(), block.begin(), block.end());
+    return more;
+  };
+  const Finished whole = Mill(waves_, with({}));
+  EXPECT_EQ(whole.status, 1);
+  EXPECT_THAT(whole.err, AllOf(HasSubstr("NEEDS_ROUGHING"), HasSubstr("--accept-depth"),
+                               HasSubstr("no program was written")));
+  const Finished accepted = Mill(waves_, with({"--accept-depth", "40"}));
+  ASSERT_EQ(accepted.status, 0) << accepted.err;
+  EXPECT_THAT(Slurp(out_ / "part.ngc"), HasSubstr("DEPTH_ACCEPTED"));
+  const auto verify = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> words = {"verify",          waves_, out_ / "part.ngc",
+                                      "--tool-diameter", "6",    "--no-finish"};
+    words.insert(words.end(), more.begin(), more.end());
+    return Patchmill(with(words));
+  };
+  EXPECT_EQ(verify({"--accept-depth", "40"}).status, 0);
+  const Finished shallow = verify({});
+  EXPECT_EQ(shallow.status, 1);
+  EXPECT_THAT(shallow.out, HasSubstr("CUT_TOO_DEEP"));
+  for (const char* wrong : {"foo", "cylinder", "cylinder,1,2", "block,x", "outline: 1,2 3,4"}) {
+    const Finished refused = Mill(waves_, {"--stock", wrong});
+    EXPECT_EQ(refused.status, 2) << wrong << refused.err;
+    EXPECT_THAT(refused.err, HasSubstr("--stock")) << wrong;
+  }
+}
+
+TEST_F(Cli, TheMachineLimitsTheProgramAndTimesIt) {
+  const auto machine = [&](double half, double acceleration) {
+    std::string axes;
+    for (int k = 0; k < 3; ++k) {
+      axes += fmt::format(
+          "{}{{\"travel_min_mm\": {}, \"travel_max_mm\": {}, \"rapid_mm_per_min\": 8000, "
+          "\"feed_mm_per_min\": 4000, \"acceleration_mm_per_s2\": {}}}",
+          k == 0 ? "" : ", ", -half, half, acceleration);
+    }
+    return in_.Write("machine.json", "{\"name\": \"m\", \"axes\": [" + axes + "]}");
+  };
+  const auto seconds = [&](std::vector<std::string> more) {
+    more.insert(more.end(), {"--report", out_ / "r.json"});
+    const Finished mill = Mill(waves_, more);
+    EXPECT_EQ(mill.status, 0) << mill.err;
+    v1::Report report;
+    EXPECT_TRUE(google::protobuf::util::JsonStringToMessage(Slurp(out_ / "r.json"), &report).ok());
+    double sum = 0.0;
+    for (const v1::TimeOfKind& part : report.times_of_kinds()) sum += part.time_s();
+    if (report.times_of_kinds_size() > 0) {
+      EXPECT_NEAR(sum, report.estimated_time_s(), 1e-6 * sum);
+    }
+    return report.estimated_time_s();
+  };
+  const double quick = seconds({"--machine", machine(500, 5000)});
+  EXPECT_GT(seconds({"--machine", machine(500, 50)}), 1.2 * quick);
+  const Finished small = Mill(waves_, {"--machine", machine(5, 500)});
+  EXPECT_EQ(small.status, 1);
+  EXPECT_THAT(small.err, HasSubstr("BEYOND_TRAVEL"));
+  const Finished broken = Mill(waves_, {"--machine", in_.Write("machine.json", "{\"axes\": 3}")});
+  EXPECT_EQ(broken.status, 2);
+  EXPECT_THAT(broken.err, HasSubstr("--machine"));
+  EXPECT_THAT(Mill(waves_, {"--machine", in_.Write("machine.json", "{}")}).err, HasSubstr("must have 3"));
 }
 
 // Regions are listed with ids, switched off by id or by point, and verified alike.
