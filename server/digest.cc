@@ -189,6 +189,7 @@ void AddPost(const Job& job, Canonical& out) {
   if (known == nullptr || known->text != job.dialect.text) out.Add(job.dialect.text);
   if (job.program_number != 1) out.Add(std::int64_t{job.program_number});
   if (job.control_deviation) out.Add(*job.control_deviation);
+  if (!job.arcs) out.Add("straight moves only");
 }
 
 }  // namespace

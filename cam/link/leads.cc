@@ -12,8 +12,6 @@
 namespace patchmill {
 namespace {
 
-// In chord tolerances: how far chords of arcs are off the arc.
-constexpr double kSagitta = 0.2;
 constexpr double kLeastRamp = 0.2;  // mm, height of a ramp
 constexpr double kTouched = 0.01;   // radii: places of the surface that much farther count as touched
 // Leads that go back to the start of the pass: how much of it, in lead radii, and the smallest part of the
@@ -62,7 +60,7 @@ std::optional<Vec3> BeyondStock(const MoveCheck& check, const LeadArc& arc) {
 
 // The first free arc onto the place, from its outer end to the place. Only arcs of at least `least` mm count.
 std::optional<Lead> ArcTo(const MoveCheck& check, const LeadPlace& place, double least) {
-  const double sagitta = kSagitta * check.params().pass.chord_tolerance;
+  const double sagitta = kLeadSagitta * check.params().pass.chord_tolerance;
   for (LeadArc& arc : LeadArcs(place, check.params().lead, sagitta)) {
     if (arc.radius < least) break;
     if (!AllFree(check, arc.places)) continue;

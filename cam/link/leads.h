@@ -8,6 +8,8 @@
 
 namespace patchmill {
 
+inline constexpr double kLeadSagitta = 0.1;  // chord tolerances: how far chords of arcs are off the arc
+
 // The way from the outside of the stock to the end of a pass, or back. From `clear`, where the ball is clear
 // of the stock, it goes straight down to places.front(), then along `places` to the pass.
 struct Lead {

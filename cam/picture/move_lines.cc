@@ -8,6 +8,8 @@ namespace patchmill {
 
 namespace {
 
+constexpr double kArcSagitta = 0.01;  // mm, of the chords that an arc is drawn with
+
 MoveLine LineOf(PassKind kind) {
   switch (kind) {
     case PassKind::kZigzag:
@@ -52,9 +54,15 @@ void DrawMoves(const PreviewInput& input, const View& view, MoveLine line, doubl
       continue;
     }
     if (points.empty()) points.push_back(view(path.moves[i - 1].to + tip));
-    const Vec2 q = view(path.moves[i].to + tip);
+    const Move& move = path.moves[i];
     const bool last = i + 1 == path.moves.size() || LineOf(input, path.moves[i + 1]) != line;
-    if (last || (q - points.back()).norm() >= apart) points.push_back(q);
+    std::vector<Vec3> places = {move.to};
+    if (move.arc) places = ChordEnds(*move.arc, {path.moves[i - 1].to, move.to}, kArcSagitta);
+    for (std::size_t k = 0; k < places.size(); ++k) {
+      const Vec2 q = view(places[k] + tip);
+      const bool end = last && k + 1 == places.size();
+      if (end || (q - points.back()).norm() >= apart) points.push_back(q);
+    }
   }
   flush();
   svg.CloseGroup();

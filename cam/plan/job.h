@@ -180,6 +180,7 @@ struct Job {
   // mm: by how much the control leaves the path, where the dialect has no word that says so. Unset: exact
   // stop.
   std::optional<double> control_deviation;
+  bool arcs = true;                   // the program has arcs where the dialect has them
   std::vector<std::string> header;    // extra comment lines (request hash, version, model name)
   bool default_cutting_data = false;  // the client used defaults: warn ([machining M5])
   bool unitless_file = false;         // warn when the extent looks wrong ([machining M14])
@@ -215,7 +216,8 @@ struct JobReport {
 struct JobResult {
   JobReport report;
   std::string program;  // empty unless the outcome carries one
-  LinkResult motion;    // for PATHS and pictures
+  LinkResult motion;    // straight moves only
+  Toolpath posted;      // the motion as the program has it, with arcs
   RegionMap regions;
   Vec3 program_zero = Vec3::Zero();
 };

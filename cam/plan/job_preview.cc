@@ -199,7 +199,7 @@ std::string DrawJob(const Surface& surface, const JobResult& result, const Resol
                     const std::string& title) {
   PreviewInput input = BaseInput(surface, result.regions, result.report.choices, resolved, title);
   input.nodes.clear();  // passes are to be seen
-  input.toolpath = &result.motion.toolpath;
+  input.toolpath = &result.posted;
   input.program_zero = result.program_zero;
   for (const CutterPath& pass : result.motion.passes) input.pass_kinds.push_back(pass.kind);
   const VerifyReport& v = result.report.verify;

@@ -25,7 +25,9 @@ constexpr double kSplitSlack = Radians(0.01);
 }  // namespace
 
 Budget SplitBudget(double tolerance) {
-  return {.chord = ReachTolerance(tolerance),
+  // Arcs need the larger share: a chord of an exact arc is as far from it as the share of chords allows.
+  return {.chord = 0.2 * tolerance,
+          .arc = 0.3 * tolerance,
           .rounding = 0.1 * tolerance,
           .certificate = 0.1 * tolerance,
           .controller = 0.3 * tolerance};

@@ -13,7 +13,8 @@ namespace patchmill {
 
 // The tolerance is the whole budget ([machining M8]).
 struct Budget {
-  double chord = 0.0;        // straight moves against the exact path
+  double chord = 0.0;        // straight moves of passes against the exact path
+  double arc = 0.0;          // fitted arcs and moves against these straight moves
   double rounding = 0.0;     // four decimals need 5e-5 mm
   double certificate = 0.0;  // height certificates; the gap itself is a tenth of it
   double controller = 0.0;   // what the control may smooth: P of G64

@@ -11,6 +11,7 @@
 
 #include "cam/limits/reach_tolerance.h"
 #include "cam/limits/wide_shank.h"
+#include "cam/link/leads.h"
 #include "cam/location/limits/operation_limits.h"
 #include "cam/path/chord/scan_line.h"
 #include "cam/path/stepover/step_over.h"
@@ -26,6 +27,7 @@
 #include "cam/plan/unused_settings.h"
 #include "cam/post/program_reader.h"
 #include "cam/region/split_regions.h"
+#include "cam/toolpath/fit_arcs.h"
 #include "cam/toolpath/straighten.h"
 #include "cam/verify/stock_moves.h"
 #include "core/base/error_details.h"
@@ -117,6 +119,8 @@ LinkParams MakeLinkParams(const Job& job, const Resolved& resolved, const Operat
   p.link_feed = job.operation.link_feed;
   p.lead_feed = job.operation.lead_feed;
   p.pass = MakePassParams(job, resolved);
+  // No arcs are fitted to links, so they may use the share of arcs, too.
+  p.pass.chord_tolerance = resolved.budget.chord + resolved.budget.arc;
   p.operation_limits = operation_limits;
   return p;
 }
@@ -190,12 +194,12 @@ Diagnostics Assumptions(const Job& job, const Resolved& r) {
 
 std::vector<std::string> Header(const Job& job, const Resolved& r, const Diagnostics& assumptions) {
   std::vector<std::string> lines = job.header;
-  lines.push_back(
-      fmt::format("tolerance {:.4g} = chord {:.4g} + rounding {:.4g} + certificate {:.4g} + control {:.4g}, "
-                  "scallop {:.4g}, "
-                  "leave {:.4g}",
-                  job.operation.tolerance, r.budget.chord, r.budget.rounding, r.budget.certificate,
-                  r.budget.controller, job.operation.scallop, job.operation.leave));
+  lines.push_back(fmt::format(
+      "tolerance {:.4g} = chord {:.4g} + arc {:.4g} + rounding {:.4g} + certificate {:.4g} + control {:.4g}, "
+      "scallop {:.4g}, "
+      "leave {:.4g}",
+      job.operation.tolerance, r.budget.chord, r.budget.arc, r.budget.rounding, r.budget.certificate,
+      r.budget.controller, job.operation.scallop, job.operation.leave));
   for (const Diagnostic& d : assumptions) lines.push_back(fmt::format("{}: {}", d.code, d.message));
   return lines;
 }
@@ -213,6 +217,27 @@ absl::StatusOr<LinkResult> Link(const JobContext& context, const Locator& locato
   PM_ASSIGN_OR_RETURN(LinkResult linked, LinkPaths(locator, map, std::move(paths), params, context.run));
   linked.toolpath = Straightened(std::move(linked.toolpath));
   return linked;
+}
+
+// Rad: as much steeper may an arc descend than the steepest move at cutting feed.
+constexpr double kArcSteeper = Radians(0.25);
+
+// The motion with fewer and longer moves: arcs where the control has them.
+Toolpath Fitted(const Job& job, const Resolved& resolved, const Toolpath& motion) {
+  const DialectArcs& arcs = job.dialect.arcs;
+  ArcFit fit;
+  fit.budget = resolved.budget.arc;
+  fit.into_surface = 0.5 * resolved.budget.arc;
+  if (job.arcs) fit.planes = arcs.planes;
+  fit.helices = arcs.helices;
+  fit.largest_radius = arcs.largest_radius;
+  fit.plunge_feed = job.operation.tool.plunge_feed;
+  fit.plunge_angle = job.operation.plunge_angle + kArcSteeper;
+  fit.lowest = resolved.floor_z + resolved.radius;
+  ArcFit leads = fit;
+  leads.kind = MoveKind::kLead;
+  leads.budget = kLeadSagitta * (resolved.budget.chord + resolved.budget.arc);
+  return FitArcs(FitArcs(motion, fit), leads);
 }
 
 // The choices with the quickest angles where they are open. Each of up to kQuickestAnglePlans plans costs as
@@ -440,6 +465,7 @@ absl::StatusOr<JobResult> PlanAndJudge(const Surface& surface, const Job& job, c
     report.motion = {};
     report.point_count = 0;
     result.motion = {};
+    result.posted = {};
     return std::move(result);
   };
   if (planned.paths.empty()) return nothing(0.0);
@@ -447,7 +473,8 @@ absl::StatusOr<JobResult> PlanAndJudge(const Surface& surface, const Job& job, c
   PM_ASSIGN_OR_RETURN(result.motion, Link(context, locator, result.regions, parts, std::move(planned.paths)));
   PM_RETURN_IF_ERROR(CheckMotion(job.path_limits, result.motion));
   report.motion = result.motion.stats;
-  report.point_count = static_cast<int>(result.motion.toolpath.moves.size());
+  result.posted = Fitted(job, resolved, result.motion.toolpath);
+  report.point_count = static_cast<int>(result.posted.moves.size());
   PM_ASSIGN_OR_RETURN(const Diagnostics beside,
                       FindToolBesidePart(surface, TipsOf(result.motion.toolpath), resolved.radius,
                                          resolved.program_zero, run));
@@ -455,7 +482,7 @@ absl::StatusOr<JobResult> PlanAndJudge(const Surface& surface, const Job& job, c
   clock.Done("link");
   report.leads = result.motion.leads;
   if (job.setup.machine)
-    report.times = TimesOn(*job.setup.machine, result.motion.toolpath, result.regions.regions.size());
+    report.times = TimesOn(*job.setup.machine, result.posted, result.regions.regions.size());
   const Diagnostics steep = SteepLeads(report.leads, resolved);
   report.diagnostics.insert(report.diagnostics.end(), steep.begin(), steep.end());
   if (resolved.stock != nullptr) {
@@ -477,21 +504,24 @@ absl::StatusOr<JobResult> PlanAndJudge(const Surface& surface, const Job& job, c
   post.zero_name = resolved.zero_name;
   post.controller_tolerance = resolved.budget.controller;
   post.clearance_z = resolved.clearance_z;
+  post.chord_sagitta = 0.5 * resolved.budget.rounding;
   Diagnostics head = assumptions;
   head.insert(head.end(), beside.begin(), beside.end());
   post.header = Header(job, resolved, head);
-  PM_ASSIGN_OR_RETURN(std::string program, WriteProgram(result.motion.toolpath, job.operation.tool, post));
+  PM_ASSIGN_OR_RETURN(std::string program, WriteProgram(result.posted, job.operation.tool, post));
   clock.Done("post");
 
-  // As many moves as were written: CheckMotion has bounded them.
-  const std::size_t most_moves = std::max(ReaderParams().max_moves, 2 * result.motion.toolpath.moves.size());
-  const auto read = ReadProgram(program, {.max_moves = most_moves,
+  const VerifyParams verify = MakeVerifyParams(job, resolved, parts.parts);
+  // As many moves as were written: CheckMotion has bounded them. The chords of arcs are a tenth as far from
+  // the arc as maxima are certain.
+  const std::size_t most_moves = std::max(ReaderParams().max_moves, 20 * result.motion.toolpath.moves.size());
+  const auto read = ReadProgram(program, {.arc_chord_error = 0.1 * verify.certainty,
+                                          .max_moves = most_moves,
                                           .run = &run,
                                           .dialect = job.dialect,
                                           .control_deviation = job.control_deviation});
   if (!read.ok()) return CannotReadBack(job.dialect, read.status());
-  PM_ASSIGN_OR_RETURN(report.verify, Verify(surface, job.operation.tool, *read,
-                                            MakeVerifyParams(job, resolved, parts.parts), run));
+  PM_ASSIGN_OR_RETURN(report.verify, Verify(surface, job.operation.tool, *read, verify, run));
   clock.Done("verify");
   if (report.verify.NothingToFinish()) return nothing(report.verify.reachable_area);
   const std::optional<double>& stickout = job.operation.tool.stickout;

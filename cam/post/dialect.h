@@ -11,6 +11,9 @@
 
 #include <absl/status/statusor.h>
 
+#include "cam/toolpath/arc.h"
+#include "core/base/enum_array.h"
+
 namespace patchmill {
 
 // The grammar of the lines of a program.
@@ -23,6 +26,16 @@ enum class Syntax {
 // The effect of a word that RS274 does not have, as far as it matters to the reader of programs.
 struct DialectWord {
   char tolerance_letter = '\0';  // its value (mm) limits how far the control leaves the path; 0: no effect
+};
+
+// Arcs that the control is given. The others are written as straight moves.
+struct DialectArcs {
+  EnumArray<ArcPlane, bool> planes{};
+  bool helices = false;              // G2 and G3 may move along the third axis
+  double largest_radius = 1000.0;    // mm
+  double largest_sweep = 2.0 * kPi;  // rad, of one block
+  // I, J and K always count from the start of the arc. Else G90.1 and G91.1 decide.
+  bool center_from_start = false;
 };
 
 struct Dialect {
@@ -55,6 +68,8 @@ struct Dialect {
   std::string exact_path;
   // Used where path_tolerance is empty and the user states by how much the control leaves the path.
   std::string assumed_path;
+
+  DialectArcs arcs;
 
   std::string flood_on, mist_on, air_on;
   std::map<std::string, DialectWord> words;  // by their spelling: "G187"

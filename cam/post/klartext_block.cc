@@ -133,8 +133,8 @@ absl::StatusOr<BlockModes> Line(const std::vector<std::string>& words) {
 }
 
 // C around the pole, or CR with a radius.
-absl::StatusOr<BlockModes> Arc(const std::vector<std::string>& words, const std::optional<double>& pole_x,
-                               const std::optional<double>& pole_y) {
+absl::StatusOr<BlockModes> ArcLine(const std::vector<std::string>& words, const std::optional<double>& pole_x,
+                                   const std::optional<double>& pole_y) {
   BlockBuilder b;
   const bool by_radius = words[0] == "CR";
   for (std::size_t k = 1; k < words.size(); ++k) {
@@ -246,7 +246,7 @@ absl::StatusOr<std::optional<BlockModes>> KlartextReader::Read(std::string_view 
   if (first == "TOOL" && second == "CALL") return ToolCall(words);
   if (first == "CYCL" && second == "DEF" && words.size() > 2) return Cycle(words);
   if (first == "L") return Line(words);
-  if (first == "C" || first == "CR") return Arc(words, pole_x_, pole_y_);
+  if (first == "C" || first == "CR") return ArcLine(words, pole_x_, pole_y_);
   if (first == "CC") {
     pole_x_ = pole_y_ = std::nullopt;
     for (std::size_t k = 1; k < words.size(); ++k) {

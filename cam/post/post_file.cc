@@ -99,6 +99,23 @@ absl::Status ReadPathTemplate(std::string_view value, bool with_tolerance, std::
   return ReadText(value, out);
 }
 
+// "G17 G19": any of the three, once each.
+absl::Status ReadPlanes(std::string_view value, EnumArray<ArcPlane, bool>& out) {
+  constexpr EnumArray<ArcPlane, std::string_view> kWords{{{"G17", "G18", "G19"}}};
+  for (std::string_view rest = value; !rest.empty();) {
+    const std::string_view word = rest.substr(0, rest.find(' '));
+    rest = Trimmed(rest.substr(word.size()));
+    bool known = false;
+    for (const ArcPlane plane : Enumerators<ArcPlane>()) {
+      if (kWords[plane] != word) continue;
+      if (out[plane]) return Bad(fmt::format("{} is given twice", word));
+      out[plane] = known = true;
+    }
+    if (!known) return Bad(fmt::format("= {}; must be one or more of G17, G18 and G19", Quoted(value)));
+  }
+  return absl::OkStatus();
+}
+
 using Reader = std::function<absl::Status(std::string_view, Dialect&)>;
 
 // All keys by "section.key".
@@ -139,6 +156,19 @@ const std::map<std::string, Reader, std::less<>>& Keys() {
       {"path.tolerance_least", [](View v, Dialect& d) { return ReadNumber(v, 0.0, 1.0, d.least_tolerance); }},
       {"path.exact", [](View v, Dialect& d) { return ReadPathTemplate(v, false, d.exact_path); }},
       {"path.assumed", [](View v, Dialect& d) { return ReadPathTemplate(v, false, d.assumed_path); }},
+      {"arcs.planes", [](View v, Dialect& d) { return ReadPlanes(v, d.arcs.planes); }},
+      {"arcs.helices", [](View v, Dialect& d) { return ReadChoice(v, "no", "yes", d.arcs.helices); }},
+      {"arcs.largest_radius",
+       [](View v, Dialect& d) { return ReadNumber(v, 1.0, 1e5, d.arcs.largest_radius); }},
+      {"arcs.largest_sweep",
+       [](View v, Dialect& d) {
+         double degrees = 0.0;
+         PM_RETURN_IF_ERROR(ReadNumber(v, 90.0, 360.0, degrees));
+         d.arcs.largest_sweep = Radians(degrees);
+         return absl::OkStatus();
+       }},
+      {"arcs.centre",
+       [](View v, Dialect& d) { return ReadChoice(v, "modal", "start", d.arcs.center_from_start); }},
       {"coolant.flood", [](View v, Dialect& d) { return ReadPathTemplate(v, false, d.flood_on); }},
       {"coolant.mist", [](View v, Dialect& d) { return ReadPathTemplate(v, false, d.mist_on); }},
       {"coolant.air", [](View v, Dialect& d) { return ReadPathTemplate(v, false, d.air_on); }},
@@ -219,6 +249,9 @@ class PostFileReader {
       if (dialect_.exact_path.empty()) return Bad("[path] exact is missing, and it does not follow exactly");
       if (!Begins("{path}")) return Bad("[begin] nowhere has {path}, which the accuracy rests on");
     }
+    const bool other_planes = dialect_.arcs.planes[ArcPlane::kZx] || dialect_.arcs.planes[ArcPlane::kYz];
+    if (dialect_.syntax == Syntax::kKlartext && (other_planes || dialect_.arcs.helices))
+      return Bad("[arcs] klartext programs have arcs in the plane G17 only, and no helices");
     if (dialect_.title.empty()) dialect_.title = dialect_.name;
     dialect_.text = text;
     return std::move(dialect_);
@@ -233,14 +266,14 @@ class PostFileReader {
   }
 
   absl::Status Section(std::string_view text) {
-    for (const char* name : {"control", "path", "coolant", "words", "begin", "end"}) {
+    for (const char* name : {"control", "path", "arcs", "coolant", "words", "begin", "end"}) {
       if (text == fmt::format("[{}]", name)) {
         section_ = name;
         return absl::OkStatus();
       }
     }
-    return Bad(
-        fmt::format("{}: must be [control], [path], [coolant], [words], [begin] or [end]", Quoted(text)));
+    return Bad(fmt::format("{}: must be [control], [path], [arcs], [coolant], [words], [begin] or [end]",
+                           Quoted(text)));
   }
 
   absl::Status Template(std::string_view text) {

@@ -29,7 +29,8 @@ absl::Status Bad(const std::string& message) { return absl::InvalidArgumentError
 // The state of the control and its motion so far.
 class Interpreter {
  public:
-  explicit Interpreter(const ReaderParams& params) : params_(params), dialect_(params_.dialect) {}
+  explicit Interpreter(const ReaderParams& params)
+      : params_(params), dialect_(params_.dialect), arc_stated_(params.dialect.arcs.center_from_start) {}
 
   absl::Status Run(const BlockModes& block, int line);
   void SkipLine() { motion_.has_deletable_lines = true; }
@@ -90,7 +91,8 @@ class Interpreter {
   PathMode path_mode_ = PathMode::kNotStated;
   double blending_ = 0.0;               // mm, of G64
   std::optional<double> own_blending_;  // mm, by a word of the dialect's own
-  bool unit_stated_ = false, distance_stated_ = false, arc_stated_ = false, plane_stated_ = false;
+  bool unit_stated_ = false, distance_stated_ = false, plane_stated_ = false;
+  bool arc_stated_;                      // what I, J and K count from is known
   int length_of_ = -1;                   // H of the last G43; -1 if it had none
   int tool_ = -1, loaded_ = -1;          // T of the program and the tool in the spindle; -1 if not known yet
   int work_offset_ = 0;                  // code; 0 if not stated yet

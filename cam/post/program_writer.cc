@@ -9,6 +9,7 @@
 #include "cam/post/dialect.h"
 #include "cam/post/number_format.h"
 #include "cam/post/post_template.h"
+#include "cam/post/round_arc.h"
 #include "core/base/status.h"
 
 namespace patchmill {
@@ -18,12 +19,21 @@ namespace {
 constexpr double kLargestCoordinate = 1e6;  // mm
 constexpr int kLargestLineNumber = 99'999;  // of N words; then they begin again
 constexpr std::array<const char*, 3> kAxis = {"X", "Y", "Z"};
-using Ticks = std::array<std::int64_t, 3>;
+constexpr std::array<const char*, 3> kCenter = {"I", "J", "K"};
+constexpr EnumArray<ArcPlane, const char*> kPlaneWord{{{"G17", "G18", "G19"}}};
+constexpr EnumArray<ArcPlane, std::size_t> kThirdAxis{{{2, 1, 0}}};
+
+struct RoundedArc {
+  ArcPlane plane = ArcPlane::kXy;
+  bool clockwise = false;
+  Ticks center{};  // from the start of the arc
+};
 
 struct RoundedMove {
   bool rapid = false;
   Ticks to{};
   double feed = 0.0;
+  std::optional<RoundedArc> arc = {};
 };
 
 absl::Status Validate(const Toolpath& toolpath, const Tool& tool, const PostParams& params) {
@@ -53,8 +63,12 @@ absl::Status Validate(const Toolpath& toolpath, const Tool& tool, const PostPara
       !(std::abs(params.clearance_z) <= largest)) {
     return bad(fmt::format("program zero, ball radius or clearance beyond {} mm", kLargestCoordinate));
   }
+  if (!(params.chord_sagitta > 0.0))
+    return bad(fmt::format("chord_sagitta = {} mm; must be > 0", params.chord_sagitta));
   for (std::size_t i = 0; i < toolpath.moves.size(); ++i) {
     const Move& move = toolpath.moves[i];
+    if (move.arc && !(move.arc->center.cwiseAbs().maxCoeff() <= 2.0 * kLargestCoordinate))
+      return bad(fmt::format("moves[{}].arc.center is not within {} mm", i, 2.0 * kLargestCoordinate));
     if (!move.to.allFinite() || !(move.to.cwiseAbs().maxCoeff() <= largest)) {
       return bad(fmt::format("moves[{}].to is not within {} mm", i, kLargestCoordinate));
     }
@@ -67,29 +81,89 @@ absl::Status Validate(const Toolpath& toolpath, const Tool& tool, const PostPara
 
 // Turns centres into rounded tips in the program frame. The first move is a rapid to the place over the first
 // point, at the clearance plane or higher. Moves that vanish in rounding are dropped.
-std::vector<RoundedMove> RoundMoves(const Toolpath& toolpath, const PostParams& params, int decimals) {
-  const auto ticks = [&](const Vec3& centre) {
-    const Vec3 tip = centre - Vec3(0, 0, toolpath.ball_radius) - params.program_zero;
-    return Ticks{ToTicks(tip.x(), decimals), ToTicks(tip.y(), decimals), ToTicks(tip.z(), decimals)};
-  };
-  const std::int64_t clearance = ToTicks(params.clearance_z - params.program_zero.z(), decimals);
-  std::vector<RoundedMove> moves;
-  moves.reserve(toolpath.moves.size() + 2);
-  Ticks at = ticks(toolpath.moves.front().to);
-  at[2] = std::max(at[2], clearance);
-  moves.push_back({.rapid = true, .to = at});
-  for (const Move& move : toolpath.moves) {
-    const Ticks to = ticks(move.to);
-    if (to == at) continue;
-    moves.push_back({.rapid = move.kind == MoveKind::kRapid, .to = to, .feed = move.feed});
-    at = to;
+class MoveRounder {
+ public:
+  MoveRounder(const Toolpath& toolpath, const PostParams& params)
+      : toolpath_(toolpath),
+        params_(params),
+        decimals_(params.dialect.decimals),
+        shift_(params.program_zero + Vec3(0, 0, toolpath.ball_radius)) {}
+
+  std::vector<RoundedMove> Round() {
+    const std::int64_t clearance = ToTicks(params_.clearance_z - params_.program_zero.z(), decimals_);
+    moves_.reserve(toolpath_.moves.size() + 2);
+    at_ = At(toolpath_.moves.front().to - shift_);
+    at_[2] = std::max(at_[2], clearance);
+    moves_.push_back({.rapid = true, .to = at_});
+    for (std::size_t k = 0; k < toolpath_.moves.size(); ++k) {
+      const Move& move = toolpath_.moves[k];
+      if (move.arc && k > 0) {
+        Turn(toolpath_.moves[k - 1].to, move);
+      } else {
+        Go(move.to - shift_, move.feed, move.kind == MoveKind::kRapid);
+      }
+    }
+    if (at_[2] < clearance) {
+      at_[2] = clearance;
+      moves_.push_back({.rapid = true, .to = at_});
+    }
+    return std::move(moves_);
   }
-  if (at[2] < clearance) {
-    at[2] = clearance;
-    moves.push_back({.rapid = true, .to = at});
+
+ private:
+  Ticks At(const Vec3& tip) const {
+    return {ToTicks(tip.x(), decimals_), ToTicks(tip.y(), decimals_), ToTicks(tip.z(), decimals_)};
   }
-  return moves;
-}
+
+  void Go(const Vec3& tip, double feed, bool rapid) {
+    const Ticks to = At(tip);
+    if (to == at_) return;
+    moves_.push_back({.rapid = rapid, .to = to, .feed = feed});
+    at_ = to;
+  }
+
+  // An arc as one or more blocks, or as chords where that is not possible.
+  void Turn(const Vec3& from, const Move& move) {
+    const DialectArcs& limits = params_.dialect.arcs;
+    const Arc arc{move.arc->plane, move.arc->center - Xy(ToPlane(move.arc->plane, shift_)),
+                  move.arc->clockwise};
+    const ArcEnds ends{from - shift_, move.to - shift_};
+    const double radius = (Xy(ToPlane(arc.plane, ends.from)) - arc.center).norm();
+    if (limits.planes[arc.plane] && radius <= limits.largest_radius) {
+      constexpr double kSlack = 2e-3;  // rad
+      const double parts = std::ceil(Sweep(arc, ends) / (limits.largest_sweep + kSlack));
+      // Shorter arcs are easier to round.
+      if (TurnIn(parts, {arc, ends}, move.feed) || TurnIn(2.0 * parts, {arc, ends}, move.feed)) return;
+    }
+    for (const Vec3& tip : ChordEnds(arc, ends, params_.chord_sagitta)) Go(tip, move.feed, false);
+  }
+
+  // Adds the arc as so many blocks. Adds nothing, and returns false, if one of them cannot be rounded.
+  bool TurnIn(double parts, const ExactArc& exact, double feed) {
+    const Arc& arc = exact.arc;
+    const std::size_t third = kThirdAxis[arc.plane];
+    std::vector<RoundedMove> blocks;
+    Ticks at = at_;
+    for (double k = 0.0; k < parts; k += 1.0) {
+      const ArcEnds part{PlaceOn(arc, exact.ends, k / parts), PlaceOn(arc, exact.ends, (k + 1.0) / parts)};
+      const Ticks to = At(part.to);
+      const auto center = RoundedCenter({arc, part}, at, to, decimals_);
+      if (!center || (!params_.dialect.arcs.helices && to[third] != at[third])) return false;
+      blocks.push_back({.to = to, .feed = feed, .arc = RoundedArc{arc.plane, arc.clockwise, *center}});
+      at = to;
+    }
+    moves_.insert(moves_.end(), blocks.begin(), blocks.end());
+    at_ = at;
+    return true;
+  }
+
+  const Toolpath& toolpath_;
+  const PostParams& params_;
+  const int decimals_;
+  const Vec3 shift_;  // from the tip in the program frame to the centre
+  Ticks at_{};
+  std::vector<RoundedMove> moves_;
+};
 
 // A coordinate as a program has it.
 std::string PlaceText(const Dialect& dialect, std::int64_t ticks) {
@@ -127,12 +201,23 @@ class BlockWriter {
       block += word;
     };
     if (IsKlartext()) {
-      add("L");
-    } else if (move.rapid != rapid_) {
-      add(move.rapid ? "G0" : "G1");
+      if (move.arc) Pole(*move.arc);
+      add(move.arc ? "C" : "L");
+    } else {
+      if (move.arc && plane_ != move.arc->plane) {
+        add(kPlaneWord[*(plane_ = move.arc->plane)]);
+        motion_ = {};  // stated anew in another plane
+      }
+      const char* motion = move.rapid ? "G0" : !move.arc ? "G1" : move.arc->clockwise ? "G2" : "G3";
+      if (motion_ != motion) add(motion_ = motion);
     }
     for (std::size_t k = 0; k < 3; ++k) {
-      if (move.to[k] != at_[k]) add(kAxis[k] + PlaceText(dialect_, move.to[k]));
+      const bool in_plane = move.arc && k != kThirdAxis[move.arc->plane];
+      if (in_plane || move.to[k] != at_[k]) add(kAxis[k] + PlaceText(dialect_, move.to[k]));
+    }
+    if (move.arc && IsKlartext()) add(move.arc->clockwise ? "DR-" : "DR+");
+    for (std::size_t k = 0; move.arc && !IsKlartext() && k < 3; ++k) {
+      if (k != kThirdAxis[move.arc->plane]) add(kCenter[k] + PlaceText(dialect_, move.arc->center[k]));
     }
     if (IsKlartext() && move.rapid) add("FMAX");
     if (!move.rapid && (rapid_ || move.feed != feed_)) {
@@ -145,16 +230,58 @@ class BlockWriter {
     at_ = move.to;
     Line(block);
   }
+  // After the last move: the plane is G17 again, as other programs may expect.
+  void EndMoves() {
+    if (plane_ && *plane_ != ArcPlane::kXy) Line(kPlaneWord[ArcPlane::kXy]);
+  }
   std::string Take() { return std::move(text_); }
 
  private:
+  // The centre of the arc that begins here.
+  void Pole(const RoundedArc& arc) {
+    Line(fmt::format("CC X{} Y{}", PlaceText(dialect_, at_[0] + arc.center[0]),
+                     PlaceText(dialect_, at_[1] + arc.center[1])));
+  }
+
   const Dialect& dialect_;
   std::string text_;
   int number_ = 0;
   Ticks at_{};
   bool rapid_ = true;
+  std::string_view motion_ = "G0";
+  std::optional<ArcPlane> plane_;  // none before the first arc
   double feed_ = 0.0;
 };
+
+// The least and the greatest place of all moves along each axis.
+struct TickRange {
+  Ticks low{}, high{};
+};
+TickRange RangeOf(const std::vector<RoundedMove>& moves, int decimals) {
+  Ticks at = moves.front().to;
+  TickRange range{at, at};
+  const auto add = [&](const Ticks& place) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      range.low[k] = std::min(range.low[k], place[k]);
+      range.high[k] = std::max(range.high[k], place[k]);
+    }
+  };
+  const double unit = std::pow(10.0, -decimals);
+  const auto place = [&](const Ticks& t) {
+    return Vec3(unit * Vec3(static_cast<double>(t[0]), static_cast<double>(t[1]), static_cast<double>(t[2])));
+  };
+  for (const RoundedMove& move : moves) {
+    if (move.arc) {
+      const Vec3 center = place(at) + place(move.arc->center);
+      const Arc arc{move.arc->plane, Xy(ToPlane(move.arc->plane, center)), move.arc->clockwise};
+      for (const Vec3& p : TurningPlaces(arc, {place(at), place(move.to)}))
+        add({ToTicks(p.x(), decimals), ToTicks(p.y(), decimals), ToTicks(p.z(), decimals)});
+    }
+    add(move.to);
+    at = move.to;
+  }
+  return range;
+}
 
 std::string ToolLine(const Tool& tool) {
   std::string line = fmt::format("tool T{}: ball D {}", tool.number, FormatShort(2.0 * BallRadius(tool), 4));
@@ -167,13 +294,7 @@ std::string ToolLine(const Tool& tool) {
 
 std::vector<std::string> HeaderTexts(const std::vector<RoundedMove>& moves, const Tool& tool,
                                      const PostParams& params, const Dialect& dialect) {
-  Ticks low = moves.front().to, high = low;
-  for (const RoundedMove& move : moves) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      low[k] = std::min(low[k], move.to[k]);
-      high[k] = std::max(high[k], move.to[k]);
-    }
-  }
+  const auto [low, high] = RangeOf(moves, dialect.decimals);
   std::vector<std::string> texts = params.header;
   texts.push_back("units MM, feeds MM per minute; X Y Z is the tool tip, the lowest point of the ball");
   const auto zero = [&](int k) {
@@ -232,7 +353,7 @@ absl::StatusOr<std::string> WriteProgram(const Toolpath& toolpath, const Tool& t
                                          const PostParams& params) {
   PM_RETURN_IF_ERROR(Validate(toolpath, tool, params));
   const Dialect& dialect = params.dialect;
-  const std::vector<RoundedMove> moves = RoundMoves(toolpath, params, dialect.decimals);
+  const std::vector<RoundedMove> moves = MoveRounder(toolpath, params).Round();
   const auto place = [&](std::size_t k) { return PlaceText(dialect, moves.front().to[k]); };
   const PostValues values{.program = fmt::format("{:04}", params.program_number),
                           .work_offset = params.work_offset,
@@ -259,6 +380,7 @@ absl::StatusOr<std::string> WriteProgram(const Toolpath& toolpath, const Tool& t
   write(dialect.begin);
   out.StartAt(moves.front().to);
   for (std::size_t i = 1; i < moves.size(); ++i) out.Go(moves[i]);
+  out.EndMoves();
   write(dialect.end);
   return out.Take();
 }

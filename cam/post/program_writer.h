@@ -23,14 +23,18 @@ struct PostParams {
   // none, it is the user's own statement about the control. 0 means exact stop, if the control needs it.
   double controller_tolerance = 0.0;
   double clearance_z = 0.0;  // mm, tip height of rapids, placed frame
+  // mm, > 0: largest distance of the chords from an arc that is not written as one.
+  double chord_sagitta = 0.001;
   std::vector<std::string>
       header;  // comment lines: assumptions, warnings, hash; WriteProgram makes them safe for the dialect
 };
 
-// Writes straight moves only. Coordinates have the dialect's decimals, no exponent and no "-0.0000"; moves
-// that vanish in rounding are dropped. Before and after the moves stand the lines of the dialect. Modal words
-// are not repeated. The text is ASCII and ends with a newline. INVALID_ARGUMENT for an unknown work offset,
-// for tool data, moves or parameters out of range, and for a toolpath without moves.
+// Writes straight moves, and arcs where the dialect has them. An arc is written as two, or else as chords,
+// if no rounded centre keeps the rules for the radii at its ends (round_arc.h); as chords also if its plane,
+// its radius or its climb is not the dialect's. Coordinates have the dialect's decimals, no exponent and no
+// "-0.0000"; moves that vanish in rounding are dropped. Before and after the moves stand the lines of the
+// dialect. Modal words are not repeated. The text is ASCII and ends with a newline. INVALID_ARGUMENT for an
+// unknown work offset, for tool data, moves or parameters out of range, and for a toolpath without moves.
 absl::StatusOr<std::string> WriteProgram(const Toolpath& toolpath, const Tool& tool,
                                          const PostParams& params);
 

@@ -7,7 +7,8 @@
 namespace patchmill {
 namespace {
 
-constexpr double kShortest = 1e-9;  // mm; a shorter move takes no time
+constexpr double kLeastSagitta = 1e-3;  // mm
+constexpr double kShortest = 1e-9;      // mm; a shorter move takes no time
 
 // A move with what the axes allow along it; mm and s.
 struct Stretch {
@@ -84,15 +85,29 @@ std::vector<double> MoveTimes(std::span<const TimedMove> moves, const Machine& m
 
 ToolpathTimes TimesOn(const Machine& machine, const Toolpath& toolpath, std::size_t regions) {
   std::vector<TimedMove> moves;
+  std::vector<std::size_t> of;  // index of the toolpath's move
+  // Chords that are off their arc by the junction deviation are passed, corner by corner, at the speed whose
+  // centripetal acceleration on the arc is that of the axes.
+  const double sagitta = std::max(machine.junction_deviation, kLeastSagitta);
   for (std::size_t i = 1; i < toolpath.moves.size(); ++i) {
     const Move& move = toolpath.moves[i];
-    moves.push_back({move.to - toolpath.moves[i - 1].to, move.feed, move.kind == MoveKind::kRapid});
+    Vec3 at = toolpath.moves[i - 1].to;
+    const auto add = [&](const Vec3& to) {
+      moves.push_back({to - at, move.feed, move.kind == MoveKind::kRapid});
+      of.push_back(i);
+      at = to;
+    };
+    if (move.arc) {
+      for (const Vec3& place : ChordEnds(*move.arc, {at, move.to}, sagitta)) add(place);
+    } else {
+      add(move.to);
+    }
   }
   const std::vector<double> times = MoveTimes(moves, machine);
   ToolpathTimes sums;
   sums.of_region.assign(regions, 0.0);
   for (std::size_t i = 0; i < times.size(); ++i) {
-    const Move& move = toolpath.moves[i + 1];
+    const Move& move = toolpath.moves[of[i]];
     sums.total += times[i];
     sums.of_kind[move.kind] += times[i];
     if (move.region != kNoRegion && move.region.index() < regions)

@@ -23,7 +23,8 @@ struct TimedMove {
 // is zero where the path turns back. The first move begins and the last one ends at rest. Cost O(n).
 std::vector<double> MoveTimes(std::span<const TimedMove> moves, const Machine& machine);
 
-// The time of a toolpath, s, by what its moves are for.
+// The time of a toolpath, s, by what its moves are for. On an arc the centripetal acceleration is at most
+// that of the axes.
 struct ToolpathTimes {
   double total = 0.0;
   EnumArray<MoveKind, double> of_kind{};

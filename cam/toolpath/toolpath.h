@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "cam/toolpath/arc.h"
 #include "core/base/diagnostic.h"
 #include "core/base/typed_id.h"
 #include "core/base/vec.h"
@@ -20,7 +21,8 @@ struct MoveContact {
   PatchId patch;
 };
 
-// A straight move from `to` of the previous move. The first move starts at machine zero, above everything.
+// A move from `to` of the previous move, straight or along an arc. The first move starts at machine zero,
+// above everything.
 struct Move {
   MoveKind kind = MoveKind::kRapid;
   Vec3 to = Vec3::Zero();
@@ -28,6 +30,7 @@ struct Move {
   RegionId region = kNoRegion;  // region of the pass; none between passes
   int pass = -1;                // index of the pass in the linked order; -1 between passes
   std::optional<MoveContact> contact = std::nullopt;  // at `to`
+  std::optional<Arc> arc = std::nullopt;              // never of a rapid
 };
 
 struct Toolpath {

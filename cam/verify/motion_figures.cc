@@ -163,6 +163,7 @@ class DescentWatch {
 MotionFigures MeasureMotion(const ProgramMotion& motion, const Tool& tool) {
   MotionFigures figures;
   DescentWatch watch(tool.plunge_feed);
+  int line = 0;  // of the last feed move
   for (std::size_t i = 0; i < motion.moves.size(); ++i) {
     const ProgramMove& move = motion.moves[i];
     for (int k = watch.Add(move); k-- > 0;) figures.steep_moves.push_back(static_cast<int>(i) - k);
@@ -172,6 +173,11 @@ MotionFigures MeasureMotion(const ProgramMotion& motion, const Tool& tool) {
     const Vec3 d = move.to - move.from;
     const bool rapid = move.kind == ProgramMove::Kind::kRapid;
     (rapid ? figures.rapid_length : figures.cut_length) += d.norm();
+    if (!rapid && move.line != line) {
+      line = move.line;
+      ++figures.feed_blocks;
+      if (move.chord_error > 0.0) ++figures.arc_blocks;
+    }
     if (rapid || d.norm() < kRounding) continue;
     figures.steepest_descent = std::max(figures.steepest_descent, std::atan2(-d.z(), Xy(d).norm()));
   }

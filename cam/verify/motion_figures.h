@@ -16,6 +16,7 @@ inline constexpr double kSteepDescent = Radians(30.0);
 struct MotionFigures {
   Box3 tip_box;  // program frame; places of the tip below machine zero; empty if there are none
   double cut_length = 0.0, rapid_length = 0.0;  // mm, of moves that do not touch machine zero
+  int feed_blocks = 0, arc_blocks = 0;          // lines with such feed moves, and the arcs among them
   double steepest_descent = 0.0;                // rad, of feed moves longer than rounding
   // The feed moves of descents that are steeper than 30 degrees and faster than plunge feed, in rising order.
   std::vector<int> steep_moves;

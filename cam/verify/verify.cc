@@ -329,6 +329,8 @@ class Verifier {
     report_.tip_box = figures.tip_box;
     report_.cut_length = figures.cut_length;
     report_.rapid_length = figures.rapid_length;
+    report_.feed_blocks = figures.feed_blocks;
+    report_.arc_blocks = figures.arc_blocks;
     report_.steepest_descent = figures.steepest_descent;
     if (!figures.tip_box.Empty()) report_.tip_z_min = figures.tip_box.min.z();
     PM_ASSIGN_OR_RETURN(report_.required_stickout, RequiredStickout(surface_, tool_, motion_, params_, run_));

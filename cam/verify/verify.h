@@ -121,6 +121,7 @@ struct VerifyReport {
   double tip_z_min = 0.0;                       // mm, lowest tip, program frame
   Box3 tip_box;                                 // program frame; places of the tip below machine zero
   double cut_length = 0.0, rapid_length = 0.0;  // mm, of moves that do not touch machine zero
+  int feed_blocks = 0, arc_blocks = 0;  // lines of the program with such feed moves; the arcs among them
   // Errors: GOUGE, SHANK_GOUGE, LEFTOVER, RAPID_IN_STOCK, RAPID_DOG_LEG, OUTSIDE_BOUNDARY (feeds), ABOVE_TOP
   // (feeds), OBSTACLE_HIT, CUT_TOO_DEEP, BEYOND_TRAVEL, FEED_BEYOND_RANGE,
   // SHANK_IN_STOCK, BESIDE_PART, AVOID_MARGIN (of each of these codes at most 20, of different lines

@@ -31,6 +31,7 @@ struct MillOptions {
   RegionChangeOptions regions;
   std::string model, program, report, preview, work_offset = "G54";
   PostOptions post;
+  bool no_arcs = false;
   int program_number = 1;
 };
 
@@ -65,6 +66,7 @@ absl::StatusOr<v1::GenerateProgramRequest> MakeRequest(const MillOptions& option
   if (!post.ok()) return post.status();
   request.mutable_post()->set_dialect(std::move(post->dialect));
   request.mutable_post()->set_post_file(std::move(post->post_file));
+  if (options.no_arcs) request.mutable_post()->set_arcs(false);
   request.mutable_post()->set_program_number(options.program_number);
   if (options.post.control_deviation)
     request.mutable_post()->set_control_deviation_mm(*options.post.control_deviation);
@@ -208,9 +210,10 @@ void PrintSummary(const MillOptions& options, const v1::Report& report) {
   if (const std::string skipped = SkippedLine(report); !skipped.empty()) {
     fmt::print(stderr, "  skipped   {}\n", skipped);
   }
-  fmt::print(stderr, "  motion    {:.1f} min ({}), {} points, {} retracts\n",
-             report.estimated_time_s() / 60.0, report.time_basis(), report.point_count(),
-             report.retract_count());
+  fmt::print(stderr, "  motion    {:.1f} min ({}), {} retracts\n", report.estimated_time_s() / 60.0,
+             report.time_basis(), report.retract_count());
+  fmt::print(stderr, "            {} feed blocks, {} of them arcs, {:.3g} points per mm\n",
+             report.feed_block_count(), report.arc_block_count(), report.points_per_mm());
   fmt::print(stderr, "            {:.1f} m of feed, {}; {:.1f} m of rapids{}\n",
              report.cut_length_mm() / 1000.0, OverLeast(report), report.rapid_length_mm() / 1000.0,
              SavedRapids(report));
@@ -333,6 +336,8 @@ Command AddMill(CLI::App& app) {
   AddMotionOptions(app, options->operation);
   app.add_option("--work-offset", options->work_offset, "work offset, G54 to G59")->capture_default_str();
   AddPostOptions(app, "--post", options->post);
+  app.add_flag("--no-arcs", options->no_arcs,
+               "straight moves only (G1), also where the dialect has arcs (G2, G3)");
   app.add_option("--program-number", options->program_number,
                  "number of the program, for dialects that number their programs")
       ->check(CLI::Range(1, 9999))

@@ -240,6 +240,18 @@ v1::MoveKind ToProto(MoveKind value) {
   return v1::MOVE_KIND_UNSPECIFIED;
 }
 
+v1::ArcPlane ToProto(ArcPlane value) {
+  switch (value) {
+    case ArcPlane::kXy:
+      return v1::ARC_PLANE_XY;
+    case ArcPlane::kZx:
+      return v1::ARC_PLANE_ZX;
+    case ArcPlane::kYz:
+      return v1::ARC_PLANE_YZ;
+  }
+  return v1::ARC_PLANE_UNSPECIFIED;
+}
+
 v1::BorderKind ToProto(BorderKind value) {
   switch (value) {
     case BorderKind::kOpenEdge:

@@ -32,6 +32,7 @@ v1::CutDirection ToProto(CutDirection value);
 v1::BoundaryMode ToProto(BoundaryMode value);
 v1::EdgeRule ToProto(EdgeRule value);
 v1::MoveKind ToProto(MoveKind value);
+v1::ArcPlane ToProto(ArcPlane value);
 v1::BorderKind ToProto(BorderKind value);
 v1::RegionKind ToProto(RegionKind value);
 v1::Slope ToProto(SlopeClass value);

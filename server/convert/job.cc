@@ -80,7 +80,7 @@ void CheckSpindle(const Tool& tool, const Machine& machine, const std::string& a
 
 void ReadPost(const v1::Post& proto, Job& job, FieldErrors& errors) {
   job.dialect = ReadDialect(proto.dialect(), proto.post_file(), "post.", errors);
-  if (proto.arcs()) errors.NotYet("post.arcs", "programs have straight moves only");
+  job.arcs = !proto.has_arcs() || proto.arcs();
   if (proto.unit() != v1::LENGTH_UNIT_UNSPECIFIED && proto.unit() != v1::LENGTH_UNIT_MILLIMETER) {
     errors.NotYet("post.unit", "programs are in millimetres");
   }
@@ -292,7 +292,7 @@ v1::Post PostToProto(const Job& job) {
     proto.set_post_file(job.dialect.text);
   proto.set_program_number(job.program_number);
   if (job.control_deviation) proto.set_control_deviation_mm(*job.control_deviation);
-  proto.set_arcs(false);
+  proto.set_arcs(job.arcs);
   proto.set_unit(v1::LENGTH_UNIT_MILLIMETER);
   proto.set_work_offset(job.work_offset);
   return proto;

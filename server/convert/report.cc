@@ -329,6 +329,9 @@ void FillFromVerifier(const VerifyReport& verify, const Vec3& zero, bool scallop
   if (scallop_judged) AddLeftoverClasses(verify, report);
   report->set_cut_length_mm(Number(verify.cut_length));
   report->set_rapid_length_mm(Number(verify.rapid_length));
+  report->set_feed_block_count(verify.feed_blocks);
+  report->set_arc_block_count(verify.arc_blocks);
+  report->set_points_per_mm(verify.cut_length > 0.0 ? Number(verify.feed_blocks / verify.cut_length) : 0.0);
   report->set_steepest_descent_deg(Number(Degrees(verify.steepest_descent)));
 }
 
@@ -373,36 +376,6 @@ v1::Report ToProto(const JobReport& from, const Job& job, const Resolved& resolv
   if (!program.empty()) report.set_program_sha256(Sha256(program));
   report.set_controller_tolerance_mm(Number(from.controller_tolerance));
   return report;
-}
-
-bool EmitPaths(const Toolpath& toolpath, const Vec3& zero, const std::function<bool(v1::PathChunk)>& emit) {
-  const Vec3 tip_offset = zero + Vec3(0.0, 0.0, toolpath.ball_radius);
-  v1::PathChunk chunk;
-  const Move* first = nullptr;
-  const auto flush = [&] {
-    if (first == nullptr) return true;
-    first = nullptr;
-    return emit(std::exchange(chunk, {}));
-  };
-  for (const Move& move : toolpath.moves) {
-    const bool same = first != nullptr && move.kind == first->kind && move.region == first->region &&
-                      move.pass == first->pass && move.feed == first->feed &&
-                      move.contact.has_value() == first->contact.has_value() &&
-                      chunk.tip_mm_size() < static_cast<int>(3 * limits::kPathChunkPoints);
-    if (!same) {
-      if (!flush()) return false;
-      first = &move;
-      chunk.set_region_id(move.region.value);
-      chunk.set_pass_index(move.pass);
-      chunk.set_kind(ToProto(move.kind));
-      chunk.set_feed_mm_per_min(move.kind == MoveKind::kRapid ? 0.0 : move.feed);
-    }
-    for (int k = 0; k < 3; ++k) chunk.add_tip_mm(move.to[k] - tip_offset[k]);
-    if (!move.contact) continue;
-    for (int k = 0; k < 3; ++k) chunk.add_contact_mm(move.contact->p[k] - zero[k]);
-    chunk.add_contact_patch_index(move.contact->patch.value);
-  }
-  return flush();
 }
 
 }  // namespace patchmill

@@ -2,7 +2,6 @@
 // zero is subtracted.
 #pragma once
 
-#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -12,7 +11,6 @@
 #include "patchmill/v1/diagnostic.pb.h"
 #include "patchmill/v1/region.pb.h"
 #include "patchmill/v1/report.pb.h"
-#include "patchmill/v1/toolpath.pb.h"
 
 namespace patchmill {
 
@@ -48,9 +46,5 @@ void FillFromVerifier(const VerifyReport& verify, const Vec3& zero, bool scallop
 // The report of a job. `program` is the text that is sent; empty if there is none.
 v1::Report ToProto(const JobReport& report, const Job& job, const Resolved& resolved,
                    std::string_view program);
-
-// Emits the motion in order, in chunks of at most limits::kPathChunkPoints points. Stops if `emit` returns
-// false.
-bool EmitPaths(const Toolpath& toolpath, const Vec3& zero, const std::function<bool(v1::PathChunk)>& emit);
 
 }  // namespace patchmill

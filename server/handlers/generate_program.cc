@@ -8,6 +8,7 @@
 #include "cam/plan/resolve.h"
 #include "core/base/status.h"
 #include "server/convert/job.h"
+#include "server/convert/paths.h"
 #include "server/convert/report.h"
 #include "server/handlers/handlers.h"
 #include "server/handlers/outputs.h"
@@ -19,8 +20,8 @@ namespace {
 
 using Response = v1::GenerateProgramResponse;
 
-const Outputs kPossible = {v1::OUTPUT_PROGRESS, v1::OUTPUT_REGIONS, v1::OUTPUT_PATHS,
-                           v1::OUTPUT_PROGRAM,  v1::OUTPUT_REPORT,  v1::OUTPUT_PICTURE};
+const Outputs kPossible = {v1::OUTPUT_PROGRESS, v1::OUTPUT_REGIONS, v1::OUTPUT_PATHS, v1::OUTPUT_PROGRAM,
+                           v1::OUTPUT_REPORT,   v1::OUTPUT_PICTURE, v1::OUTPUT_ARCS};
 const Outputs kDefaults = {v1::OUTPUT_PROGRESS, v1::OUTPUT_PROGRAM, v1::OUTPUT_REPORT};
 
 absl::Status CheckRequestId(const std::string& id) {
@@ -39,7 +40,8 @@ Response MakeAccepted(const PreparedJob& prepared, const Outputs& outputs) {
   accepted.set_server_version(ServerVersion());
   *accepted.mutable_resolved_job() = ToProto(prepared.job, prepared.model.digest, prepared.name);
   *accepted.mutable_resolved_post() = PostToProto(prepared.job);
-  if (outputs.contains(v1::OUTPUT_REGIONS) || outputs.contains(v1::OUTPUT_PATHS)) {
+  if (outputs.contains(v1::OUTPUT_REGIONS) || outputs.contains(v1::OUTPUT_PATHS) ||
+      outputs.contains(v1::OUTPUT_ARCS)) {
     *accepted.mutable_patch_ids() = PatchIds(prepared.model.model);
   }
   return response;
@@ -84,10 +86,14 @@ bool InChunks(std::string_view bytes, const std::function<bool(std::size_t, std:
   return true;
 }
 
-bool SendPaths(const JobResult& result, const Sink<Response>& sink) {
-  return EmitPaths(result.motion.toolpath, result.program_zero, [&](v1::PathChunk chunk) {
+bool SendPaths(const Toolpath& toolpath, const Vec3& zero, const Sink<Response>& sink) {
+  return EmitPaths(toolpath, zero, [&](PathEvent event) {
     Response response;
-    *response.mutable_paths() = std::move(chunk);
+    if (auto* arc = std::get_if<v1::ArcMove>(&event)) {
+      *response.mutable_arc() = std::move(*arc);
+    } else {
+      *response.mutable_paths() = std::move(std::get<v1::PathChunk>(event));
+    }
     return sink(response);
   });
 }
@@ -125,7 +131,10 @@ bool SendResult(const PreparedJob& prepared, const Made& made, const Outputs& ou
                                           made.resolved.program_zero, made.face_ids);
     if (!sink(response)) return false;
   }
-  if (outputs.contains(v1::OUTPUT_PATHS) && verified && !SendPaths(result, sink)) return false;
+  const bool arcs = outputs.contains(v1::OUTPUT_ARCS);
+  if ((arcs || outputs.contains(v1::OUTPUT_PATHS)) && verified &&
+      !SendPaths(arcs ? result.posted : result.motion.toolpath, result.program_zero, sink))
+    return false;
   if (!SendPicture(made.picture, sink)) return false;
   if (outputs.contains(v1::OUTPUT_PROGRAM) && !SendProgram(result.program, sink)) return false;
   Response response;

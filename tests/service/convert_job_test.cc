@@ -379,8 +379,6 @@ INSTANTIATE_TEST_SUITE_P(
                       Wrong{"SecondOperation",
                             [](Request& r) { *r.mutable_job()->add_operations() = OperationOf(r); },
                             "job.operations[1] is not there yet", kNext},
-                      Wrong{"Arcs", [](Request& r) { r.mutable_post()->set_arcs(true); },
-                            "post.arcs is not there yet", kNext},
                       Wrong{"Inch", [](Request& r) { r.mutable_post()->set_unit(v1::LENGTH_UNIT_INCH); },
                             "post.unit is not there yet", kNext},
                       Wrong{"Dwell", [](Request& r) { r.mutable_post()->set_spindle_dwell_s(2); },
@@ -517,6 +515,7 @@ TEST(JobDigestTest, SeesEveryFieldAndNoDefault) {
   OperationOf(aloud).set_steep_angle_deg(45);
   OperationOf(aloud).set_detail(0.5);
   aloud.mutable_post()->set_dialect("linuxcnc");
+  aloud.mutable_post()->set_arcs(true);
   EXPECT_EQ(digest(aloud), base);
 
   const Request unusual = Unusual();
@@ -551,6 +550,7 @@ TEST(JobDigestTest, SeesEveryFieldAndNoDefault) {
   EXPECT_TRUE(differs([](Request& r) { OperationOf(r).mutable_feeds()->set_lead_mm_per_min(900); }));
   EXPECT_TRUE(differs([](Request& r) { OperationOf(r).set_accept_depth_mm(1); }));
   EXPECT_TRUE(differs([](Request& r) { SelectionOf(r).add_patch_ids("bump"); }));
+  EXPECT_TRUE(differs([](Request& r) { r.mutable_post()->set_arcs(false); }));
   EXPECT_TRUE(differs([](Request& r) { SelectionOf(r).add_avoid_patch_ids("bump"); }));
   EXPECT_TRUE(differs([](Request& r) { OperationOf(r).set_regions_sha256(std::string(32, 'x')); }));
   EXPECT_TRUE(differs([](Request& r) { AddOverride(r, true).set_skip(true); }));

@@ -49,6 +49,7 @@ int Rank(const Event& event) {
     case Event::kProgress:
     case Event::kRegions:
     case Event::kPaths:
+    case Event::kArc:
       return 1;
     case Event::kArtifact:
       return 2;
@@ -171,6 +172,69 @@ TEST_F(GenerateProgram, PathsEndWhereTheProgramsTipBoxSays) {
   }
   EXPECT_GT(contacts, 0);
   EXPECT_NEAR(lowest, stream.Report()->tip_z_min_mm(), 1e-3);
+}
+
+// A client that asks for arcs gets the moves of the program, one by one; another gets straight moves only.
+TEST_F(GenerateProgram, ArcsComeOnlyToThoseWhoAsk) {
+  v1::GenerateProgramRequest request = WithAllOutputs();
+  request.mutable_job()->mutable_operations(0)->set_strategy(v1::STRATEGY_ZIGZAG);
+  const Embedded::Stream straight = embedded_.Generate(request);
+  for (const Event& event : straight.events) EXPECT_FALSE(event.has_arc());
+  request.add_outputs(v1::OUTPUT_ARCS);
+  const Embedded::Stream stream = embedded_.Generate(request);
+  ASSERT_NE(stream.Report(), nullptr);
+  EXPECT_EQ(stream.Program(), straight.Program());
+  int arcs = 0, moves = 0;
+  double at[3] = {};
+  for (const Event& event : stream.events) {
+    if (event.has_paths()) {
+      const auto& tips = event.paths().tip_mm();
+      moves += tips.size() / 3;
+      for (int k = 0; k < 3; ++k) at[k] = tips[tips.size() - 3 + k];
+    }
+    if (!event.has_arc()) continue;
+    const v1::ArcMove& arc = event.arc();
+    ++arcs;
+    ++moves;
+    EXPECT_EQ(arc.kind(), v1::MOVE_KIND_CUT);
+    EXPECT_GT(arc.feed_mm_per_min(), 0.0);
+    EXPECT_GE(arc.contact_patch_index(), 0);
+    const double center[3] = {arc.center().x_mm(), arc.center().y_mm(), arc.center().z_mm()};
+    const double tip[3] = {arc.tip().x_mm(), arc.tip().y_mm(), arc.tip().z_mm()};
+    ASSERT_NE(arc.plane(), v1::ARC_PLANE_UNSPECIFIED);
+    const int third = arc.plane() == v1::ARC_PLANE_XY ? 2 : arc.plane() == v1::ARC_PLANE_ZX ? 1 : 0;
+    EXPECT_NEAR(center[third], at[third], 1e-9);
+    const auto radius = [&](const double* p) {
+      const int i = (third + 1) % 3, j = (third + 2) % 3;
+      return std::hypot(p[i] - center[i], p[j] - center[j]);
+    };
+    EXPECT_NEAR(radius(at), radius(tip), 1e-6);
+    for (int k = 0; k < 3; ++k) at[k] = tip[k];
+  }
+  EXPECT_GT(arcs, 10);
+  EXPECT_EQ(moves, stream.Report()->point_count());
+  EXPECT_LE(stream.Report()->arc_block_count(), arcs);
+  EXPECT_GT(stream.Report()->arc_block_count(), arcs / 2);
+}
+
+TEST_F(GenerateProgram, StraightMovesOnlyWhereAsked) {
+  v1::GenerateProgramRequest request = BumpRequest();
+  const Embedded::Stream arcs = embedded_.Generate(request);
+  ASSERT_NE(arcs.Report(), nullptr);
+  EXPECT_TRUE(arcs.events.front().accepted().resolved_post().arcs());
+  EXPECT_GT(arcs.Report()->arc_block_count(), 0);
+  request.mutable_post()->set_arcs(false);
+  const Embedded::Stream stream = embedded_.Generate(request);
+  ASSERT_NE(stream.Report(), nullptr);
+  EXPECT_FALSE(stream.events.front().accepted().resolved_post().arcs());
+  EXPECT_EQ(stream.Report()->arc_block_count(), 0);
+  EXPECT_GT(stream.Report()->feed_block_count(), arcs.Report()->feed_block_count());
+  EXPECT_NEAR(stream.Report()->points_per_mm() * stream.Report()->cut_length_mm(),
+              stream.Report()->feed_block_count(), 1e-6);
+  for (const char* word : {"\nG2 ", "\nG3 ", " I", "G18 ", "G19 "}) {
+    const std::size_t moves = stream.Program().find("\nG0 X");
+    EXPECT_EQ(stream.Program().find(word, moves), std::string::npos) << word;
+  }
 }
 
 // Two bumps side by side: a contact lies on the patch it names, by the client's own id.

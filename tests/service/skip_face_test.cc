@@ -35,9 +35,19 @@ const Vec3 kCenter(15.0, 12.0, 8.0);
   if (access(ImporterPath().c_str(), X_OK) != 0) GTEST_SKIP() << "built without Open CASCADE"
 
 Finished Mill(const std::string& model, const std::string& program, const std::vector<std::string>& more) {
-  std::vector<std::string> arguments = {
-      "mill",      model, "-o",          program, "--tool-diameter", "6",
-      "--scallop", "0.2", "--tolerance", "0.05",  "--report",        program + ".json"};
+  std::vector<std::string> arguments = {"mill",
+                                        model,
+                                        "-o",
+                                        program,
+                                        "--tool-diameter",
+                                        "6",
+                                        "--scallop",
+                                        "0.2",
+                                        "--tolerance",
+                                        "0.05",
+                                        "--report",
+                                        program + ".json",
+                                        "--no-arcs"};  // TipsOf reads straight moves
   arguments.insert(arguments.end(), more.begin(), more.end());
   return Patchmill(arguments);
 }

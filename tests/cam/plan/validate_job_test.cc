@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "cam/limits/reach_tolerance.h"
 #include "cam/plan/resolve.h"
 #include "tests/support/jobs/jobs.h"
 #include "tests/support/shapes.h"
@@ -194,8 +195,11 @@ TEST(Heights, ContradictionsAreNamed) {
 TEST(Heights, TheToleranceIsTheWholeBudget) {
   for (const double tolerance : {1e-4, 0.01, 0.3}) {
     const Budget b = SplitBudget(tolerance);
-    EXPECT_DOUBLE_EQ(b.chord + b.rounding + b.certificate + b.controller, tolerance);
-    for (const double share : {b.chord, b.rounding, b.certificate, b.controller}) EXPECT_GT(share, 0.0);
+    EXPECT_DOUBLE_EQ(b.chord + b.arc + b.rounding + b.certificate + b.controller, tolerance);
+    for (const double share : {b.chord, b.arc, b.rounding, b.certificate, b.controller})
+      EXPECT_GT(share, 0.0);
+    // What passes may use themselves.
+    EXPECT_DOUBLE_EQ(b.chord + b.arc, ReachTolerance(tolerance));
   }
 }
 

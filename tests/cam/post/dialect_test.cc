@@ -1,10 +1,12 @@
 // The dialects that Patchmill brings along, and post files of one's own.
 #include "cam/post/dialect.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -75,6 +77,55 @@ Toolpath RandomPath(std::uint64_t seed) {
   return path;
 }
 
+// Arcs of all planes between straight moves, both ways round, with full circles and helices.
+Toolpath PathWithArcs(std::uint64_t seed) {
+  Random random(seed);
+  Toolpath path;
+  path.ball_radius = kRadius;
+  path.moves.push_back({.kind = MoveKind::kRapid, .to = Vec3(0, 0, 20.0 + kRadius)});
+  path.moves.push_back({.kind = MoveKind::kPlunge, .to = Vec3(0, 0, 1.0), .feed = 400.0});
+  for (int k = 0; k < 24; ++k) {
+    const Vec3 from = path.moves.back().to;
+    Move move = {.kind = MoveKind::kCut, .to = from, .feed = k % 7 == 3 ? 777.5 : 1200.0};
+    const auto plane = static_cast<ArcPlane>(k / 4 % 3);
+    const double radius = random.Uniform(1.0, 20.0), begin = random.Uniform(-kPi, kPi);
+    const double turn = k % 4 == 0 ? 2.0 * kPi : random.Uniform(0.1, kPi);
+    const bool clockwise = random.Int(2) == 1;
+    const Vec3 start = ToPlane(plane, from);
+    const Vec2 center = Xy(start) - radius * Vec2(std::cos(begin), std::sin(begin));
+    const double end = begin + (clockwise ? -turn : turn);
+    const double climb = k % 4 == 1 ? random.Uniform(-1.0, 1.0) : 0.0;
+    if (k % 4 == 2) {
+      move.to += Vec3(random.Uniform(0.1, 2.0), random.Uniform(-2.0, 2.0), random.Uniform(-0.3, 0.3));
+    } else {
+      move.arc = Arc{plane, center, clockwise};
+      const Vec2 at = center + radius * Vec2(std::cos(end), std::sin(end));
+      if (k % 4 != 0) move.to = FromPlane(plane, Lift(at, start.z() + climb));
+    }
+    path.moves.push_back(move);
+  }
+  path.moves.push_back({.kind = MoveKind::kRapid, .to = Lift(Xy(path.moves.back().to), 20.0 + kRadius)});
+  return path;
+}
+
+// A move as it was sent: its length, and the distance of a place at the share t of it from the exact one.
+struct SentMove {
+  Vec3 from, to;
+  std::optional<Arc> arc;
+
+  double Radius() const { return (Xy(ToPlane(arc->plane, from)) - arc->center).norm(); }
+  double Length() const {
+    if (!arc) return (to - from).norm();
+    const double climb = ToPlane(arc->plane, to).z() - ToPlane(arc->plane, from).z();
+    return std::hypot(Radius() * Sweep(*arc, {from, to}), climb);
+  }
+  double Distance(const Vec3& p, double t) const {
+    if (!arc) return (p - from - t * (to - from)).norm();
+    const Vec3 q = ToPlane(arc->plane, p), a = ToPlane(arc->plane, from), b = ToPlane(arc->plane, to);
+    return std::hypot((Xy(q) - arc->center).norm() - Radius(), q.z() - a.z() - t * (b.z() - a.z()));
+  }
+};
+
 class EveryDialect : public ::testing::TestWithParam<std::string> {
  protected:
   const Dialect& dialect() const { return *FindDialect(GetParam()); }
@@ -117,11 +168,74 @@ TEST_P(EveryDialect, IsReadBackAsTheSameMotion) {
   }
 }
 
+// Each arc is read back beside the one that was sent, move by move, and its ends to half a last digit.
+TEST_P(EveryDialect, ArcsAreReadBackAsTheSameMotion) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const Toolpath path = PathWithArcs(seed);
+    const auto program = WriteProgram(path, BallTool(), ParamsFor(dialect()));
+    ASSERT_TRUE(program.ok()) << program.status();
+    const auto motion = ReadProgram(*program, {.arc_chord_error = 1e-6, .dialect = dialect()});
+    ASSERT_TRUE(motion.ok()) << motion.status() << "\n" << *program;
+    EXPECT_EQ(motion->assumptions.size(), GetParam() == "grbl" ? 1u : 0u);
+    const double unit = std::pow(10.0, -dialect().decimals);
+    std::vector<const ProgramMove*> below;
+    for (const ProgramMove& move : motion->moves) {
+      if (!move.to_above && !move.from_above) below.push_back(&move);
+    }
+    std::size_t next = 0;
+    for (std::size_t i = 1; i < path.moves.size(); ++i) {
+      const Vec3 tip(0, 0, -kRadius);
+      SentMove sent{path.moves[i - 1].to + tip, path.moves[i].to + tip, path.moves[i].arc};
+      if (sent.arc) sent.arc->center += Xy(ToPlane(sent.arc->plane, tip));
+      // Read moves until the end of this one; a full circle ends where it starts.
+      double most = 0.0, length = 0.0;
+      while (next < below.size()) {
+        const ProgramMove& read = *below[next++];
+        length += (read.to - read.from).norm();
+        most = std::max(most, sent.Distance(read.to, length / sent.Length()));
+        if (length > 0.9 * sent.Length() && (read.to - sent.to).cwiseAbs().maxCoeff() <= 0.5000001 * unit)
+          break;
+      }
+      EXPECT_LE(most, (sent.arc ? 2.0 : 1.0) * unit) << "seed " << seed << ", move " << i;
+      EXPECT_NEAR(length, sent.Length(), 1e-3 * sent.Length() + 4.0 * unit)
+          << "seed " << seed << ", move " << i;
+    }
+    EXPECT_EQ(next, below.size());
+  }
+}
+
+TEST_P(EveryDialect, ALevelCircleIsOneBlock) {
+  Toolpath path;
+  path.ball_radius = kRadius;
+  path.moves.push_back({.kind = MoveKind::kRapid, .to = Vec3(5, 0, 23)});
+  path.moves.push_back({.kind = MoveKind::kPlunge, .to = Vec3(5, 0, 1), .feed = 400.0});
+  Move circle = {.kind = MoveKind::kCut, .to = Vec3(5, 0, 1), .feed = 1200.0};
+  circle.arc = Arc{ArcPlane::kXy, Vec2::Zero(), true};
+  path.moves.push_back(circle);
+  const auto program = WriteProgram(path, BallTool(), ParamsFor(dialect()));
+  ASSERT_TRUE(program.ok());
+  const auto motion = ReadProgram(*program, {.dialect = dialect()});
+  ASSERT_TRUE(motion.ok()) << motion.status();
+  double length = 0.0;
+  std::vector<int> lines;
+  for (const ProgramMove& move : motion->moves) {
+    if (move.kind != ProgramMove::Kind::kFeed || move.feed != 1200.0) continue;
+    length += (move.to - move.from).norm();
+    if (lines.empty() || lines.back() != move.line) lines.push_back(move.line);
+  }
+  EXPECT_EQ(lines.size(), 1u);
+  EXPECT_NEAR(length, 10.0 * kPi, 1e-2);
+}
+
 // Rewritten only by PATCHMILL_UPDATE_GOLDEN=1; read the difference before committing it.
 TEST_P(EveryDialect, HasTheseBytes) {
   Toolpath path = RandomPath(5);
   path.moves.resize(12);
-  const auto program = WriteProgram(path, BallTool(), ParamsFor(dialect()));
+  const Toolpath arcs = PathWithArcs(5);
+  path.moves.insert(path.moves.end(), arcs.moves.begin(), arcs.moves.begin() + 14);
+  PostParams params = ParamsFor(dialect());
+  params.chord_sagitta = 0.1;
+  const auto program = WriteProgram(path, BallTool(), params);
   ASSERT_TRUE(program.ok()) << program.status();
   const fs::path file = fs::path(PATCHMILL_SOURCE_DIR) / "tests/golden/posts" / (GetParam() + ".ngc");
   if (std::getenv("PATCHMILL_UPDATE_GOLDEN") != nullptr) std::ofstream(file, std::ios::binary) << *program;
@@ -294,6 +408,76 @@ TEST(OwnPostFile, FaultsHaveTheirLine) {
   EXPECT_EQ(with("M51 = none", "M050 = none"), "line 16: M50 is given twice");
   EXPECT_EQ(with("# Our mill.", "our mill"), "line 1: text before the first section, [control]");
   EXPECT_EQ(with("comment = ;", "comment = !"), "line 5: comment: = \"!\"; must be \"( )\" or \";\"");
+}
+
+std::string ArcText(const std::string& arcs, const Toolpath& path) {
+  std::string text = kShop;
+  text.replace(text.find("[coolant]"), 0, arcs);
+  const auto shop = ParseDialect(text);
+  EXPECT_TRUE(shop.ok()) << shop.status();
+  const auto program = WriteProgram(path, BallTool(), ParamsFor(*shop));
+  EXPECT_TRUE(program.ok());
+  return *program;
+}
+
+// A post file without [arcs] gets straight moves, as before there was such a section.
+TEST(OwnPostFile, HasTheArcsThatItAsksFor) {
+  const Toolpath path = PathWithArcs(3);
+  const auto has = [](const std::string& text, const std::string& word) {
+    return text.find(word) != std::string::npos;
+  };
+  const std::string none = ArcText("", path);
+  EXPECT_FALSE(has(none, "G2 ") || has(none, "G3 ") || has(none, "G18"));
+  const std::string level = ArcText("[arcs]\nplanes = G17\n", path);
+  EXPECT_TRUE(has(level, "G2 ") && has(level, "G3 ") && has(level, " I") && has(level, " J"));
+  EXPECT_FALSE(has(level, "G18") || has(level, "G19") || has(level, " K"));
+  const std::string all = ArcText("[arcs]\nplanes = G17 G18 G19\nhelices = yes\n", path);
+  EXPECT_TRUE(has(all, " G18 ") && has(all, " G19 ") && has(all, " K"));
+  EXPECT_LT(all.size(), level.size());
+  // A full circle in quarters has four times the blocks.
+  Toolpath circle;
+  circle.ball_radius = kRadius;
+  circle.moves = {{.kind = MoveKind::kRapid, .to = Vec3(5, 0, 3)},
+                  {.kind = MoveKind::kCut, .to = Vec3(5, 0, 3), .feed = 100.0}};
+  circle.moves[1].arc = Arc{ArcPlane::kXy, Vec2::Zero(), false};
+  const auto count = [&](const char* sweep) {
+    const std::string text =
+        ArcText(std::string("[arcs]\nplanes = G17\nlargest_sweep = ") + sweep + "\n", circle);
+    int blocks = 0;
+    for (std::size_t at = text.find(" I"); at != std::string::npos; at = text.find(" I", at + 1)) ++blocks;
+    return blocks;
+  };
+  EXPECT_EQ(count("360"), 1);
+  EXPECT_EQ(count("180"), 2);
+  EXPECT_EQ(count("90"), 4);
+  EXPECT_EQ(ArcText("[arcs]\nplanes = G17\nlargest_radius = 4\n", circle).find(" I"), std::string::npos);
+}
+
+TEST(OwnPostFile, FaultsOfArcsHaveTheirLine) {
+  const auto with = [](const std::string& arcs) {
+    std::string text = kShop;
+    text.replace(text.find("[coolant]"), 0, arcs);
+    return std::string(ParseDialect(text).status().message());
+  };
+  EXPECT_EQ(with("[arcs]\nplanes = G17 G16\n"),
+            "line 13: planes: = \"G17 G16\"; must be one or more of G17, G18 and G19");
+  EXPECT_EQ(with("[arcs]\nplanes = G17 G17\n"), "line 13: planes: G17 is given twice");
+  EXPECT_EQ(with("[arcs]\nlargest_sweep = 45\n"),
+            "line 13: largest_sweep: = \"45\"; must be a number from 90 to 360");
+  EXPECT_EQ(with("[arcs]\ncentre = end\n"), "line 13: centre: = \"end\"; must be modal or start");
+}
+
+// A control whose I, J and K always count from the start has no word for it; the others must say so.
+TEST(DialectReader, CentresCountFromTheStartWhereTheControlSaysSo) {
+  const std::string text = "G17 G21 G90 G94 G61 G43 H1\nG0 X0 Y0 Z5\nG2 X2 Y0 I1 J0 F100\n";
+  const auto assumed = [&](const char* name) {
+    const auto motion = ReadProgram(text, {.dialect = *FindDialect(name)});
+    EXPECT_TRUE(motion.ok()) << motion.status();
+    return std::any_of(motion->assumptions.begin(), motion->assumptions.end(),
+                       [](const Diagnostic& d) { return d.code == "ARC_MODE_ASSUMED"; });
+  };
+  EXPECT_FALSE(assumed("haas") || assumed("fanuc") || assumed("siemens"));
+  EXPECT_TRUE(assumed("linuxcnc") && assumed("mach3"));
 }
 
 TEST(ControlDeviation, IsTheUsersStatement) {

@@ -77,6 +77,27 @@ TEST(MotionTime, ASlowAxisCounts) {
               50.0 / (5.0 / 0.8) + (5.0 / 0.8) / (500 / 0.8), 1e-9);
 }
 
+// Round a circle faster than its axes can turn: the speed settles at v^2 = a r.
+TEST(MotionTime, CirclesKeepTheAccelerationOfTheAxes) {
+  Machine machine = Cube(400.0);
+  machine.junction_deviation = 0.005;
+  Toolpath path;
+  path.moves.push_back({.kind = MoveKind::kRapid, .to = Vec3(9, 0, 0)});
+  for (int turn = 0; turn < 20; ++turn) {
+    path.moves.push_back(
+        {.kind = MoveKind::kCut, .to = Vec3(9, 0, 0), .feed = 6000.0, .region = RegionId(1)});
+    path.moves.back().arc = Arc{ArcPlane::kXy, Vec2::Zero(), false};
+  }
+  const ToolpathTimes times = TimesOn(machine, path, 3);
+  const double expected = 20 * 2 * kPi * 9 / std::sqrt(400.0 * 9);
+  // Chords in other directions than an axis may turn faster, by the root of the root of 2 at most.
+  EXPECT_LT(times.total, 1.02 * expected);
+  EXPECT_GT(times.total, 0.98 * expected / std::sqrt(std::sqrt(2.0)));
+  EXPECT_EQ(times.of_kind[MoveKind::kCut], times.total);
+  ASSERT_EQ(times.of_region.size(), 3u);
+  EXPECT_EQ(times.of_region[1], times.total);
+}
+
 TEST(MotionTime, NothingTakesNoTime) {
   EXPECT_TRUE(MoveTimes({}, Cube()).empty());
   EXPECT_EQ(Sum(MoveTimes({{{Vec3::Zero(), 100.0, false}}}, Cube())), 0.0);

@@ -23,7 +23,6 @@ const std::set<std::string> kNotAsked = {
     "GenerateProgramRequest.max_threads",
     // UNIMPLEMENTED.
     "Tool.holder",
-    "Post.arcs",
     "Post.program_number",
     "Post.spindle_dwell_s",
     "LengthUnit.LENGTH_UNIT_INCH",
