@@ -186,6 +186,9 @@ absl::StatusOr<StockSolid> StockSolid::Roughed(Outline outline, double top_z, co
   solid.low_ = grid.low;
   solid.nx_ = grid.nx;
   solid.ny_ = grid.ny;
+  for (const Ring& ring : solid.outline_.rings()) {
+    for (const Vec2& p : ring) solid.goes_beyond_ = solid.goes_beyond_ || solid.RoomInGrid(p) < 0.0;
+  }
   return solid;
 }
 
@@ -205,12 +208,21 @@ double StockSolid::OnGrid(const Vec2& q) const {
          s * ((1.0 - t) * at(i + 1, j) + t * at(i + 1, j + 1));
 }
 
+double StockSolid::RoomInGrid(const Vec2& q) const {
+  const Vec2 high = low_ + cell_ * Vec2(nx_, ny_);
+  return std::min((q - low_).minCoeff(), (high - q).minCoeff());
+}
+
 double StockSolid::PlanDistance(const Vec2& q) const {
   if (distance_.empty()) return -outline_.SignedDistance(q);
   const Vec2 high = low_ + cell_ * Vec2(nx_, ny_);
   const Vec2 inside = q.cwiseMax(low_).cwiseMin(high);
   const double beside = (q - inside).norm();
-  if (beside == 0.0) return OnGrid(q);
+  if (beside == 0.0) {
+    // What stands beyond the grid is at least as far away as its border, and as the outline.
+    const double beyond = goes_beyond_ ? std::max(RoomInGrid(q), -outline_.SignedDistance(q)) : kInfinity;
+    return std::min(OnGrid(q), beyond);
+  }
   // Beyond the grid nothing is covered.
   const double out = -outline_.SignedDistance(q);
   return out > 0.0 ? std::max(out, 0.0) : std::max(out, -(beside + std::max(0.0, -OnGrid(inside))));

@@ -43,6 +43,7 @@ class StockSolid {
   StockSolid() = default;
   double Step() const;  // mm; places closer together than this are not told apart
   double OnGrid(const Vec2& q) const;
+  double RoomInGrid(const Vec2& q) const;  // mm, to the border of the grid; negative beyond it
 
   Outline outline_;
   double top_z_ = 0.0;
@@ -50,6 +51,7 @@ class StockSolid {
   double cell_ = 0.0;
   Vec2 low_ = Vec2::Zero();
   int nx_ = 0, ny_ = 0;
+  bool goes_beyond_ = false;  // the outline reaches beyond the grid
   std::vector<float> distance_;
 };
 

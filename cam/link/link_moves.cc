@@ -142,7 +142,9 @@ Link LinkMaker::Over(const PassEnd& end, const PassEnd& start) const {
   };
   link.moves = with_leads(rapids, true);
   link.saved_by_low_rapids = 2.0 * (rapid_z - low);
-  double least = TimeOf(end.center(), link.moves) + params_.retract_time;
+  // A line that is cut one way only is approached from above, so there a retract marks nothing more.
+  const bool one_way = start.traversal() == Traversal::kOneWay;
+  double least = TimeOf(end.center(), link.moves) + (one_way ? 0.0 : params_.retract_time);
   const auto take = [&](std::vector<Move> moves) {
     const double time = TimeOf(end.center(), moves);
     if (time >= least) return;

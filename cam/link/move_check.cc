@@ -16,7 +16,8 @@ namespace {
 constexpr double kProven = 1.2;
 // In R: places of the surface that are farther than the nearest one by this still count as touched.
 constexpr double kCornerOffset = 0.04;
-constexpr double kFineRapid = 0.1;  // mm; accuracy of the height of a low rapid
+constexpr double kFloorSlack = 1e-7;  // mm; rounding
+constexpr double kFineRapid = 0.1;    // mm; accuracy of the height of a low rapid
 
 }  // namespace
 
@@ -78,6 +79,8 @@ bool MoveCheck::StraightIsFree(const Vec3& a, const Vec3& b) const {
 }
 
 bool MoveCheck::Allowed(const Vec3& a, const Vec3& b) const {
+  const double floor = params_.pass.floor_z + locator_.radius();  // of centres
+  if (std::min(a.z(), b.z()) < floor - kFloorSlack) return false;
   if (params_.stock != nullptr) {
     const double allowed = params_.radius - params_.depth_limit - params_.stock->accuracy();
     if (params_.stock->SegmentComesNearer(a, b, allowed)) return false;

@@ -24,8 +24,9 @@ class MoveCheck {
   Move AirMove(const Vec3& to) const;
   // True if the straight feed move is proven to gouge by at most the chord tolerance and is Allowed.
   bool StraightIsFree(const Vec3& a, const Vec3& b) const;
-  // True if params().operation_limits allow the feed move: the centre may be there, and the ball cuts nothing
-  // that is not to be finished.
+  // True if the feed move stays above the floor, cuts no deeper into params().stock than it may, and
+  // params().operation_limits allow it: the centre may be there, and the ball cuts nothing that is not to be
+  // finished.
   bool Allowed(const Vec3& a, const Vec3& b) const;
   // Lowest centre height over `place` at which the ball is clear of the stock, mm. It is no lower than
   // `place` and no higher than the clearance plane.

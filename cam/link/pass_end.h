@@ -14,6 +14,7 @@ class PassEnd {
   static PassEnd End(const CutterPath& pass) { return {pass, false}; }
 
   bool is_start() const { return is_start_; }
+  Traversal traversal() const { return pass_->traversal; }
   const CutterPoint& point() const;
   const Vec3& center() const { return point().center; }
   // The direction of the cut there, unit length; zero for a pass without length.

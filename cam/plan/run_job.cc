@@ -407,6 +407,35 @@ absl::Status CannotReadBack(const Dialect& dialect, const absl::Status& status) 
                   dialect.name, std::string(status.message())));
 }
 
+bool HasArcs(const Toolpath& toolpath) {
+  return std::any_of(toolpath.moves.begin(), toolpath.moves.end(),
+                     [](const Move& move) { return move.arc.has_value(); });
+}
+
+// The text of a program, and what the verifier says of it.
+struct VerifiedProgram {
+  std::string text;
+  VerifyReport report;
+};
+
+// The chords of arcs are a tenth as far from the arc as maxima are certain.
+absl::StatusOr<VerifiedProgram> PostAndVerify(const JobContext& context, const Toolpath& toolpath,
+                                              const PostParams& post, const VerifyParams& verify,
+                                              std::size_t most_moves) {
+  const Job& job = context.job;
+  VerifiedProgram program;
+  PM_ASSIGN_OR_RETURN(program.text, WriteProgram(toolpath, job.operation.tool, post));
+  const auto read = ReadProgram(program.text, {.arc_chord_error = 0.1 * verify.certainty,
+                                               .max_moves = most_moves,
+                                               .run = &context.run,
+                                               .dialect = job.dialect,
+                                               .control_deviation = job.control_deviation});
+  if (!read.ok()) return CannotReadBack(job.dialect, read.status());
+  PM_ASSIGN_OR_RETURN(program.report,
+                      Verify(context.surface, job.operation.tool, *read, verify, context.run));
+  return program;
+}
+
 absl::StatusOr<JobResult> PlanAndJudge(const Surface& surface, const Job& job, const RunContext& run) {
   PM_RETURN_IF_ERROR(ValidateJob(job));
   PM_ASSIGN_OR_RETURN(const Resolved resolved, Resolve(surface, job, run));
@@ -508,21 +537,27 @@ absl::StatusOr<JobResult> PlanAndJudge(const Surface& surface, const Job& job, c
   Diagnostics head = assumptions;
   head.insert(head.end(), beside.begin(), beside.end());
   post.header = Header(job, resolved, head);
-  PM_ASSIGN_OR_RETURN(std::string program, WriteProgram(result.posted, job.operation.tool, post));
-  clock.Done("post");
-
   const VerifyParams verify = MakeVerifyParams(job, resolved, parts.parts);
-  // As many moves as were written: CheckMotion has bounded them. The chords of arcs are a tenth as far from
-  // the arc as maxima are certain.
+  // As many moves as were written: CheckMotion has bounded them.
   const std::size_t most_moves = std::max(ReaderParams().max_moves, 20 * result.motion.toolpath.moves.size());
-  const auto read = ReadProgram(program, {.arc_chord_error = 0.1 * verify.certainty,
-                                          .max_moves = most_moves,
-                                          .run = &run,
-                                          .dialect = job.dialect,
-                                          .control_deviation = job.control_deviation});
-  if (!read.ok()) return CannotReadBack(job.dialect, read.status());
-  PM_ASSIGN_OR_RETURN(report.verify, Verify(surface, job.operation.tool, *read, verify, run));
+  PM_ASSIGN_OR_RETURN(VerifiedProgram program,
+                      PostAndVerify(context, result.posted, post, verify, most_moves));
   clock.Done("verify");
+  if (!program.report.ok() && HasArcs(result.posted)) {
+    PM_ASSIGN_OR_RETURN(VerifiedProgram straight,
+                        PostAndVerify(context, result.motion.toolpath, post, verify, most_moves));
+    clock.Done("verify without arcs");
+    if (straight.report.ok()) {
+      report.diagnostics.push_back(Warning(
+          "ARCS_LEFT_OUT", "with arcs a promise would be broken, so the program has straight moves only"));
+      program = std::move(straight);
+      result.posted = result.motion.toolpath;
+      report.point_count = static_cast<int>(result.posted.moves.size());
+      if (job.setup.machine)
+        report.times = TimesOn(*job.setup.machine, result.posted, result.regions.regions.size());
+    }
+  }
+  report.verify = std::move(program.report);
   if (report.verify.NothingToFinish()) return nothing(report.verify.reachable_area);
   const std::optional<double>& stickout = job.operation.tool.stickout;
   if (stickout && *stickout < report.verify.required_stickout) {
@@ -541,7 +576,7 @@ absl::StatusOr<JobResult> PlanAndJudge(const Surface& surface, const Job& job, c
   double unreachable = 0.0;
   for (const double area : report.verify.unreachable_area) unreachable += area;
   report.outcome = unreachable > 0.0 ? Outcome::kCompleteWhereReachable : Outcome::kComplete;
-  result.program = std::move(program);
+  result.program = std::move(program.text);
   return result;
 }
 

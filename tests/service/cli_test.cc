@@ -470,8 +470,8 @@ TEST_F(Cli, StockThatIsTooDeepEndsTheJob) {
   ASSERT_EQ(accepted.status, 0) << accepted.err;
   EXPECT_THAT(Slurp(out_ / "part.ngc"), HasSubstr("DEPTH_ACCEPTED"));
   const auto verify = [&](const std::vector<std::string>& more) {
-    std::vector<std::string> words = {"verify",          waves_, out_ / "part.ngc",
-                                      "--tool-diameter", "6",    "--no-finish"};
+    std::vector<std::string> words = {"verify",      waves_, out_ / "part.ngc", "--tool-diameter", "6",
+                                      "--tolerance", "0.02", "--no-finish"};
     words.insert(words.end(), more.begin(), more.end());
     return Patchmill(with(words));
   };

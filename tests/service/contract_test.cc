@@ -93,7 +93,7 @@ void ExpectComment(const Descriptor& descriptor) {
 }
 
 TEST(Contract, DimensionedNumbersCarryTheirUnit) {
-  const std::set<std::string> units = {"mm", "mm2", "deg", "s", "min", "rpm"};
+  const std::set<std::string> units = {"mm", "mm2", "deg", "s", "s2", "min", "rpm"};
   // Numbers without a dimension, and coordinates in the unit their model states.
   const std::set<std::string> plain = {"scale",
                                        "fraction",

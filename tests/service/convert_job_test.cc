@@ -537,7 +537,6 @@ TEST(JobDigestTest, SeesEveryFieldAndNoDefault) {
   EXPECT_TRUE(differs([](Request& r) { HeightsOf(r).set_top_z_mm(2); }));
   EXPECT_TRUE(differs([](Request& r) { HeightsOf(r).set_high_rapids(true); }));
   EXPECT_TRUE(differs([](Request& r) { SetMachine(r); }));
-  EXPECT_FALSE(differs([](Request& r) { HeightsOf(r).set_low_rapids(true); }));  // without effect
   EXPECT_TRUE(differs([](Request& r) { StockOf(r).mutable_block(); }));
   EXPECT_TRUE(differs([](Request& r) { StockOf(r).mutable_cylinder()->set_diameter_mm(90); }));
   EXPECT_TRUE(differs([](Request& r) {

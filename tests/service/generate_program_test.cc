@@ -132,7 +132,8 @@ TEST_F(GenerateProgram, AcceptedEchoesTheJobWithDefaultsFilledIn) {
   EXPECT_NEAR(op.steep_angle_deg(), 45.0, 1e-12);
   EXPECT_EQ(op.strategy(), v1::STRATEGY_AUTO);
   EXPECT_EQ(op.heights().clearance_above_mm(), 5.0);
-  EXPECT_EQ(accepted.resolved_job().setup().stock().allowance_mm(), 0.5);
+  // It is assumed, not stated: that makes rapids high.
+  EXPECT_FALSE(accepted.resolved_job().setup().stock().has_allowance_mm());
   EXPECT_EQ(accepted.resolved_job().source().model_sha256().size(), 32u);
   EXPECT_EQ(accepted.resolved_post().dialect(), "linuxcnc");
   EXPECT_EQ(accepted.resolved_post().work_offset(), "G54");
@@ -196,9 +197,9 @@ TEST_F(GenerateProgram, ArcsComeOnlyToThoseWhoAsk) {
     const v1::ArcMove& arc = event.arc();
     ++arcs;
     ++moves;
-    EXPECT_EQ(arc.kind(), v1::MOVE_KIND_CUT);
+    EXPECT_TRUE(arc.kind() == v1::MOVE_KIND_CUT || arc.kind() == v1::MOVE_KIND_LEAD);
     EXPECT_GT(arc.feed_mm_per_min(), 0.0);
-    EXPECT_GE(arc.contact_patch_index(), 0);
+    EXPECT_EQ(arc.contact_patch_index() >= 0, arc.kind() == v1::MOVE_KIND_CUT);
     const double center[3] = {arc.center().x_mm(), arc.center().y_mm(), arc.center().z_mm()};
     const double tip[3] = {arc.tip().x_mm(), arc.tip().y_mm(), arc.tip().z_mm()};
     ASSERT_NE(arc.plane(), v1::ARC_PLANE_UNSPECIFIED);

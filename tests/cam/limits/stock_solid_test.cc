@@ -55,6 +55,25 @@ TEST(StockSolid, StandsAroundTheSurface) {
   EXPECT_NEAR(solid->Distance({0, 0, 8.0 + 3.0}), std::hypot(20.0, 3.0), solid->accuracy());
 }
 
+// Stock that stands apart from the surface, beyond the grid over it.
+TEST(StockSolid, StandsApartFromTheSurface) {
+  const Surface plane = testing::SurfaceOf(testing::Plane(10.0));
+  const Outline apart({Ring{{12, -20}, {20, -20}, {20, 20}, {12, 20}}});
+  const absl::StatusOr<StockSolid> solid = StockSolid::Roughed(apart, 2.0, plane, RunContext());
+  ASSERT_TRUE(solid.ok()) << solid.status();
+  for (double x = -15.0; x <= 30.0; x += 0.7) {
+    const double expected = std::max(12.0 - x, x - 20.0);
+    // Over the grid the distance may be taken as smaller, never as larger.
+    EXPECT_LE(solid->PlanDistance({x, 0}), expected + solid->accuracy()) << x;
+    if (std::abs(x) > 10.2) {
+      EXPECT_NEAR(solid->PlanDistance({x, 0}), expected, solid->accuracy()) << x;
+    }
+  }
+  EXPECT_TRUE(solid->SegmentComesNearer({0, 0, 4.5}, {30, 0, 4.5}, 3.0));
+  EXPECT_FALSE(solid->SegmentComesNearer({0, 0, 4.5}, {8, 0, 4.5}, 3.0));
+  EXPECT_TRUE(solid->RectangleComesNearer({0, 0}, {30, 1}, 3.0));
+}
+
 TEST(StockSolid, NothingStandsWhereTheSurfaceCoversTheOutline) {
   const Surface plane = testing::SurfaceOf(testing::Plane(12.0));
   const absl::StatusOr<StockSolid> solid = StockSolid::Roughed(Square(10.0), 8.0, plane, RunContext());

@@ -1,5 +1,6 @@
 #include "cam/link/leads.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -102,6 +103,21 @@ TEST(Leads, InASlotThePassIsEnteredAlongItself) {
   EXPECT_NE(lead.kind, LeadKind::kStraight);
   EXPECT_LT(AngleAtStart(lead, pass), Radians(10.0));
   ExpectFree(setting, lead);
+}
+
+// The pass ends on its way down a slope, just above the floor: an arc that goes on down would cross it.
+TEST(Leads, StayAboveTheFloor) {
+  Setting setting(testing::Plane(30, 0.0, 0.5, 0.0));
+  CutterPath pass = Along(setting.locator, {10, 0}, {-10, 0});
+  const double end = pass.points.back().center.z();
+  setting.params.pass.floor_z = end - kRadius - 0.05;
+  const MoveCheck check(setting.locator, setting.stock, setting.params);
+  const Lead lead = FindLead(check, PassEnd::End(pass));
+  for (const Vec3& place : lead.places) EXPECT_GE(place.z(), end - 0.05 - 1e-6);
+  setting.params.pass.floor_z = -kInfinity;
+  double lowest = kInfinity;
+  for (const Vec3& place : FindLead(check, PassEnd::End(pass)).places) lowest = std::min(lowest, place.z());
+  EXPECT_LT(lowest, end - 0.05);
 }
 
 TEST(Leads, RadiusAndSweepAreThoseOfTheParameters) {

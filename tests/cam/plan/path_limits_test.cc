@@ -83,7 +83,7 @@ TEST(PathLimits, AnEstimateRefusesNothing) {
   Job job = BallJob(3.0);
   job.operation.scallop = 0.05;
   const JobResult free = Mill(once, job);
-  job.path_limits.length = 1.5 * (free.report.motion.cut_length + free.report.motion.link_length);
+  job.path_limits.length = 1.35 * (free.report.motion.cut_length + free.report.motion.link_length);
   const JobResult result = Mill(thrice, job);
   EXPECT_GT(result.report.least_cut_length, job.path_limits.length);
   EXPECT_FALSE(result.program.empty()) << Describe(result);

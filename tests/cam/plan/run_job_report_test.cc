@@ -175,7 +175,7 @@ TEST(Report, ReadingAProgramIsCancelledToo) {
   const Surface surface = PlacedSurface(RandomBspline(5, {.spans = 2, .size = 15, .amplitude = 3}));
   std::string text;
   for (int i = 0; i < 10'000; ++i) text += "(line)\n";
-  text += "G28\n";  // refused, if it is read
+  text += "G92\n";  // refused, if it is read
   const Tool tool = BallJob(2.0).operation.tool;
   RunContext run(1);
   EXPECT_EQ(VerifyProgramText(surface, tool, text, {}, run).status().code(),

@@ -113,8 +113,8 @@ TEST(JobStock, TheVerifierFindsMovesInTheBlock) {
   EXPECT_TRUE(findings("G0 X30\n").empty() || !Has(findings("G0 X30\n"), "RAPID_IN_STOCK"));
   EXPECT_TRUE(Has(findings("G0 Z1.5\nG0 X30\nG0 Z6\n"), "RAPID_IN_STOCK"));
   // Straight, this rapid passes the block's corner; one axis after the other, it does not.
-  EXPECT_FALSE(Has(findings("G0 X30 Y0\nG0 Z1.5\nG0 X0 Y-60\nG0 Z6\n"), "RAPID_IN_STOCK"));
-  EXPECT_TRUE(Has(findings("G0 X30 Y0\nG0 Z1.5\nG0 X0 Y-60\nG0 Z6\n"), "RAPID_DOG_LEG"));
+  EXPECT_FALSE(Has(findings("G0 X30 Y0\nG0 Z1.5\nG0 X0 Y-100\nG0 Z6\n"), "RAPID_IN_STOCK"));
+  EXPECT_TRUE(Has(findings("G0 X30 Y0\nG0 Z1.5\nG0 X0 Y-100\nG0 Z6\n"), "RAPID_DOG_LEG"));
   EXPECT_TRUE(Has(findings("G1 Z1 F300\nG1 X15 F900\nG0 Z6\n"), "CUT_TOO_DEEP"));
   EXPECT_FALSE(Has(findings("G1 Z1.6 F300\nG1 X15 F900\nG0 Z6\n"), "CUT_TOO_DEEP"));
 }
