@@ -1,11 +1,11 @@
 // The stock as it lies on the machine: a prism without a lower end, less the area that was roughed.
 #pragma once
 
-#include <cstddef>
 #include <vector>
 
 #include <absl/status/statusor.h>
 
+#include "cam/limits/covered_cells.h"
 #include "core/base/run_context.h"
 #include "core/math/outline.h"
 #include "core/surface/surface.h"
@@ -18,7 +18,7 @@ namespace patchmill {
 // O(log n) beyond it.
 class StockSolid {
  public:
-  // Nothing has been cut from the prism.
+  // The whole prism: nothing has been cut from it.
   static StockSolid Whole(Outline outline, double top_z);
   // The prism stands beside the area that the surface covers as seen from above; holes of the surface are
   // not covered. Cost: up to 130,000 triangles a piece, and 50 ns a cell. CANCELLED and DEADLINE_EXCEEDED
@@ -27,7 +27,7 @@ class StockSolid {
                                             const RunContext& run);
 
   double top_z() const { return top_z_; }
-  double accuracy() const { return 2.0 * cell_; }  // mm; 0 for a whole prism
+  double accuracy() const { return distance_.empty() ? 0.0 : 2.0 * grid_.cell; }  // mm; 0 for a whole prism
 
   // Distance in plan: positive outside, negative inside. Its slope is at most 1, up to the accuracy.
   double PlanDistance(const Vec2& q) const;
@@ -36,7 +36,8 @@ class StockSolid {
   // True if a place between a and b comes nearer to the solid than `distance`, to the accuracy or 0.01 mm,
   // whichever is more. With both at height -infinity the distance is that in plan.
   bool SegmentComesNearer(const Vec3& a, const Vec3& b, double distance) const;
-  // The same in plan, for the rectangle with opposite corners a and b and sides along x and y.
+  // True if a place of a rectangle in plan comes nearer to the solid in plan than `distance`, as exactly as
+  // above. a and b are opposite corners of the rectangle, whose sides run along x and y.
   bool RectangleComesNearer(const Vec2& a, const Vec2& b, double distance) const;
 
  private:
@@ -47,12 +48,9 @@ class StockSolid {
 
   Outline outline_;
   double top_z_ = 0.0;
-  // Signed distances at the middles of cells; empty for a whole prism.
-  double cell_ = 0.0;
-  Vec2 low_ = Vec2::Zero();
-  int nx_ = 0, ny_ = 0;
-  bool goes_beyond_ = false;  // the outline reaches beyond the grid
-  std::vector<float> distance_;
+  PlanGrid grid_;
+  std::vector<float> distance_;  // mm, signed, at the middles of cells; empty for a whole prism
+  bool goes_beyond_ = false;     // the outline reaches beyond the grid
 };
 
 }  // namespace patchmill

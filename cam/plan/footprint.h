@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "cam/limits/covered_cells.h"
 #include "core/base/run_context.h"
 #include "core/surface/surface.h"
 
@@ -17,25 +18,18 @@ class Footprint {
   // Unusable when the run was cancelled meanwhile. Cost: up to 130,000 triangles a piece.
   Footprint(const Surface& surface, const RunContext& run);
 
-  double cell() const { return cell_; }  // mm, side of a cell
+  double cell() const { return grid_.cell; }  // mm, side of a cell
   // True beyond the outer border of the covered area.
   bool IsOutside(const Vec2& q) const;
   // True outside and in holes: the surface is nowhere above or below q.
   bool IsBare(const Vec2& q) const;
 
  private:
-  int Cell(double d) const;
   std::optional<std::size_t> At(const Vec2& q) const;  // nullopt beyond the grid
-  std::size_t Index(int x, int y) const {
-    return static_cast<std::size_t>(y) * static_cast<std::size_t>(nx_) + static_cast<std::size_t>(x);
-  }
-  void Cover(const Vec2& a, const Vec2& b, const Vec2& c);
   void FloodOutside();
 
-  double cell_ = 1.0;
-  Vec2 low_ = Vec2::Zero();
-  int nx_ = 0, ny_ = 0;
-  std::vector<char> covered_, outside_;
+  PlanGrid grid_;
+  std::vector<char> covered_, outside_;  // by PlanGrid::Index
 };
 
 }  // namespace patchmill
