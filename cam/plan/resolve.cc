@@ -25,7 +25,8 @@ constexpr double kSplitSlack = Radians(0.01);
 }  // namespace
 
 Budget SplitBudget(double tolerance) {
-  // Arcs need the larger share: a chord of an exact arc is as far from it as the share of chords allows.
+  // Arcs need the larger share: a chord of an exact arc is as far from it as the share of chords allows. Rest
+  // passes and links stay straight; they use both shares, which are together ReachTolerance.
   return {.chord = 0.2 * tolerance,
           .arc = 0.3 * tolerance,
           .rounding = 0.1 * tolerance,

@@ -223,7 +223,7 @@ absl::StatusOr<LinkResult> Link(const JobContext& context, const Locator& locato
 constexpr double kArcSteeper = Radians(0.25);
 
 // The motion with fewer and longer moves: arcs where the control has them.
-Toolpath Fitted(const Job& job, const Resolved& resolved, const Toolpath& motion) {
+Toolpath Fitted(const Job& job, const Resolved& resolved, const LinkResult& motion) {
   const DialectArcs& arcs = job.dialect.arcs;
   ArcFit fit;
   fit.budget = resolved.budget.arc;
@@ -234,10 +234,11 @@ Toolpath Fitted(const Job& job, const Resolved& resolved, const Toolpath& motion
   fit.plunge_feed = job.operation.tool.plunge_feed;
   fit.plunge_angle = job.operation.plunge_angle + kArcSteeper;
   fit.lowest = resolved.floor_z + resolved.radius;
+  for (const CutterPath& pass : motion.passes) fit.straight_passes.push_back(pass.kind == PassKind::kRest);
   ArcFit leads = fit;
   leads.kind = MoveKind::kLead;
   leads.budget = kLeadSagitta * (resolved.budget.chord + resolved.budget.arc);
-  return FitArcs(FitArcs(motion, fit), leads);
+  return FitArcs(FitArcs(motion.toolpath, fit), leads);
 }
 
 // The choices with the quickest angles where they are open. Each of up to kQuickestAnglePlans plans costs as
@@ -502,7 +503,7 @@ absl::StatusOr<JobResult> PlanAndJudge(const Surface& surface, const Job& job, c
   PM_ASSIGN_OR_RETURN(result.motion, Link(context, locator, result.regions, parts, std::move(planned.paths)));
   PM_RETURN_IF_ERROR(CheckMotion(job.path_limits, result.motion));
   report.motion = result.motion.stats;
-  result.posted = Fitted(job, resolved, result.motion.toolpath);
+  result.posted = Fitted(job, resolved, result.motion);
   report.point_count = static_cast<int>(result.posted.moves.size());
   PM_ASSIGN_OR_RETURN(const Diagnostics beside,
                       FindToolBesidePart(surface, TipsOf(result.motion.toolpath), resolved.radius,

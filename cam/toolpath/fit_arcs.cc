@@ -15,9 +15,14 @@ constexpr double kFlat = 1e-6;                // mm; a lower arc is straight
 constexpr double kSame = 1e-9;                // mm; places that are nearer are the same
 constexpr double kMostTurn = kPi + 1e-3;      // rad, of an arc that is not a full circle
 
-bool MayBecomeOne(const Move& a, const Move& b, MoveKind kind) {
-  return a.kind == kind && b.kind == kind && a.feed == b.feed && a.pass == b.pass && a.region == b.region &&
-         !a.arc && !b.arc;
+bool StaysStraight(const Move& move, const ArcFit& fit) {
+  const auto pass = static_cast<std::size_t>(move.pass);  // none: beyond all
+  return pass < fit.straight_passes.size() && fit.straight_passes[pass];
+}
+
+bool MayBecomeOne(const Move& a, const Move& b, const ArcFit& fit) {
+  return a.kind == fit.kind && b.kind == fit.kind && a.feed == b.feed && a.pass == b.pass &&
+         a.region == b.region && !a.arc && !b.arc && !StaysStraight(a, fit);
 }
 
 struct Range {
@@ -261,8 +266,7 @@ Toolpath FitArcs(Toolpath toolpath, const ArcFit& fit) {
   std::vector<Move> fewer;
   for (std::size_t first = 0; first < moves.size();) {
     std::size_t count = 1;
-    while (first + count < moves.size() && MayBecomeOne(moves[first], moves[first + count], fit.kind))
-      ++count;
+    while (first + count < moves.size() && MayBecomeOne(moves[first], moves[first + count], fit)) ++count;
     if (first == 0 || count == 1) {
       fewer.insert(fewer.end(), moves.begin() + static_cast<std::ptrdiff_t>(first),
                    moves.begin() + static_cast<std::ptrdiff_t>(first + count));

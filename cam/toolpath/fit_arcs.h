@@ -1,6 +1,8 @@
 // Replaces many short moves by few long ones: arcs, and straight moves [linking, section 7].
 #pragma once
 
+#include <vector>
+
 #include "cam/toolpath/toolpath.h"
 #include "core/base/enum_array.h"
 
@@ -14,9 +16,10 @@ struct ArcFit {
   double budget = 0.0;
   // mm, 0 to budget. At the ends of the old moves the new path is at most this much nearer to their contacts.
   double into_surface = 0.0;
-  EnumArray<ArcPlane, bool> planes{};  // in which arcs may lie
-  bool helices = true;                 // arcs may move along the third axis
-  double largest_radius = 1000.0;      // mm
+  EnumArray<ArcPlane, bool> planes{};      // in which arcs may lie
+  bool helices = true;                     // arcs may move along the third axis
+  double largest_radius = 1000.0;          // mm
+  std::vector<bool> straight_passes = {};  // by Move::pass: moves of these passes stay as they are
   // mm/min: a faster feed descends at most as steep as plunge_angle, anywhere on an arc.
   double plunge_feed = 0.0;
   double lowest = -kInfinity;            // mm: an upright arc stays above this centre height by kAboveLowest

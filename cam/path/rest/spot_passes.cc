@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "cam/limits/reach_tolerance.h"
 #include "cam/location/free_center.h"
 #include "cam/path/chord/chord_bounds.h"
 #include "cam/path/chord/chord_thinning.h"
@@ -19,14 +20,21 @@
 namespace patchmill {
 namespace {
 
-// Part of the chord tolerance by which centres between walls that leave no room may gouge.
+// Part of ReachTolerance by which centres between walls that leave no room may gouge.
 constexpr double kWedgeGougeShare = 0.1;
-// Parts of the chord tolerance for centres and chords where no other pass serves: in slots and holes narrower
+// Parts of ReachTolerance for centres and chords where no other pass serves: in slots and holes narrower
 // than the ball by some of the tolerance, which admits it. The certificates' share is included, since these
 // passes are proven by themselves.
 constexpr double kWedge = 1.15, kWedgedChord = 1.2;
 constexpr double kSamePlace = 1e-6;             // mm: centres this near to each other count as one
 const double kSteep = std::cos(Radians(60.0));  // of walls: scan lines over them would climb at every turn
+
+// The parameters of passes that stay straight: their chords may use the share of arcs, too.
+PassParams StraightPass(const RestPassParams& params) {
+  PassParams pass = params.pass;
+  pass.chord_tolerance = ReachTolerance(params.tolerance);
+  return pass;
+}
 
 std::vector<Vec3> CentersOf(const std::vector<LeftoverSpot>& spots) {
   std::vector<Vec3> centers;
@@ -42,13 +50,14 @@ class RestPassMaker {
       : locator_(locator),
         spots_(spots),
         params_(params),
+        straight_(StraightPass(params)),
         run_(run),
         radius_(locator.radius()),
         flat_(CenterStep(locator.radius(), params.pass.scallop, 0.0)),
         border_(locator.surface(), params.pass.roll),
         cells_(CentersOf(spots), flat_),
         open_(spots.size(), true),
-        wedge_gouge_(kWedgeGougeShare * params.pass.chord_tolerance),
+        wedge_gouge_(kWedgeGougeShare * straight_.chord_tolerance),
         asked_(spots.size(), false),
         wedge_asked_(spots.size(), false),
         free_(spots.size()),
@@ -80,6 +89,7 @@ class RestPassMaker {
   const Locator& locator_;
   const std::vector<LeftoverSpot>& spots_;
   const RestPassParams& params_;
+  const PassParams straight_;  // of rest passes; pencil passes may become arcs
   const RunContext& run_;
   const double radius_;
   const double flat_;
@@ -219,7 +229,7 @@ bool RestPassMaker::AlongRidge(std::size_t i) {
                  beyond(corners.front(), corners.size() > 1 ? corners[1] : Vec2(corners[0] + level)));
   corners.push_back(beyond(corners.back(), corners[corners.size() - 2]));
   bool added = false;
-  for (ScanRun& run : ScanPolyline(locator_, corners, params_.pass, &run_))
+  for (ScanRun& run : ScanPolyline(locator_, corners, straight_, &run_))
     added |= Add(PassKind::kRest, std::move(run.points));
   return added && !open_[i];
 }
@@ -228,7 +238,7 @@ bool RestPassMaker::AlongRidge(std::size_t i) {
 bool RestPassMaker::AlongLevel(std::size_t i) {
   if (!levels_) levels_.emplace(locator_, run_);
   ContourParams contour;
-  contour.pass = params_.pass;
+  contour.pass = straight_;
   const LevelContours level = TraceLevel(*levels_, spots_[i].center.z(), contour, run_);
   const double reach = 0.75 * flat_;
   for (const CutterPath& loop : level.loops) {
@@ -300,7 +310,7 @@ const std::optional<Vec3>& RestPassMaker::WedgedNear(std::size_t i) {
     wedged_[i] = FreeCenterNear(locator_, spot.at.p, spot.normal,
                                 {.lowest_z = params_.pass.floor_z + radius_,
                                  .most = spot.leftover,
-                                 .gouge = kWedge * params_.pass.chord_tolerance,
+                                 .gouge = kWedge * straight_.chord_tolerance,
                                  .wedged = true});
   }
   return wedged_[i];
@@ -315,7 +325,7 @@ bool RestPassMaker::AlongCenters(std::size_t i, bool wedged) {
     return wedged ? WedgedNear(k) : FreeNear(k);
   };
   if (!near(i)) return false;
-  const double limit = (wedged ? kWedgedChord : 1.0) * params_.pass.chord_tolerance;
+  const double limit = (wedged ? kWedgedChord : 1.0) * straight_.chord_tolerance;
   std::vector<CutterPoint> points;
   for (std::size_t k : Chain(i, Gentle(i))) {
     if (run_.Cancelled()) return false;
@@ -326,7 +336,7 @@ bool RestPassMaker::AlongCenters(std::size_t i, bool wedged) {
       if ((*c - last).norm() < kSamePlace) continue;
       const bool proven =
           (!wedged && ChordGouge(radius_ - wedge_gouge_, (*c - last).norm()) + wedge_gouge_ <= limit) ||
-          locator_.GougeWithin(last, *c, limit, (wedged ? 0.02 : 0.1) * params_.pass.chord_tolerance);
+          locator_.GougeWithin(last, *c, limit, (wedged ? 0.02 : 0.1) * straight_.chord_tolerance);
       if (!proven) {
         Add(PassKind::kRest, std::move(points));
         points.clear();

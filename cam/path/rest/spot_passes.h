@@ -23,9 +23,10 @@ enum class RestMethod { kPencilRidgeLevel, kCentersOnly };
 // - a plunge from above. It starts above the open spots that lie over the spot.
 //
 // Where the ball has no room (slots, holes of its own size) only the last two kinds can reach the spot; they
-// may gouge by a tenth of params.chord_tolerance. Passes are clipped to params.operation_limits
-// (ClipToLimits). A spot that an earlier pass finishes gets no pass of its own. Every pass is certified to
-// params.chord_tolerance.
+// may gouge by a tenth of ReachTolerance, and by 1.2 of it where the ball enters only thanks to it. Passes
+// are clipped to params.operation_limits (ClipToLimits). A spot that an earlier pass finishes gets no pass of
+// its own. Pencil passes are certified to params.pass.chord_tolerance, all others to ReachTolerance: no arcs
+// may be fitted to these (PassKind::kRest).
 absl::StatusOr<std::vector<CutterPath>> RestPassesAt(const Locator& locator,
                                                      const std::vector<LeftoverSpot>& spots,
                                                      const RestPassParams& params, RestMethod method,

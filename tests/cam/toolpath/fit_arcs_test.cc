@@ -335,5 +335,22 @@ TEST(FitArcs, TakesLittleTimeForManyMoves) {
   }
 }
 
+// Half a circle twice, as two passes.
+TEST(FitArcs, LeavesStraightPassesAsTheyAre) {
+  const auto half = [](double t) { return Vec3(10.0 * std::cos(kPi * t), 10.0 * std::sin(kPi * t), 0.0); };
+  Toolpath path = Along(half, 100);
+  for (int k = 99; k >= 0; --k) path.moves.push_back(Cut(half(k / 100.0), 1200.0, 1));
+  ArcFit fit = Everything();
+  EXPECT_EQ(FitArcs(path, fit).moves.size(), 3u);
+  fit.straight_passes = {false, true};
+  const Toolpath fitted = FitArcs(path, fit);
+  ASSERT_EQ(fitted.moves.size(), 102u);
+  EXPECT_TRUE(fitted.moves[1].arc.has_value());
+  for (std::size_t k = 2; k < fitted.moves.size(); ++k) {
+    EXPECT_FALSE(fitted.moves[k].arc.has_value());
+    EXPECT_EQ(fitted.moves[k].to, path.moves[k + 99].to);
+  }
+}
+
 }  // namespace
 }  // namespace patchmill

@@ -20,12 +20,12 @@ namespace {
 
 using namespace patchmill::testing;
 
-constexpr double kScallop = 0.01, kTolerance = 0.01;
+constexpr double kScallop = 0.01, kTolerance = 0.01, kChordTolerance = 0.4 * kTolerance;
 
 RestPassParams Coverage() {
   RestPassParams params;
   params.pass.scallop = kScallop;
-  params.pass.chord_tolerance = 0.4 * kTolerance;
+  params.pass.chord_tolerance = kChordTolerance;
   params.tolerance = kTolerance;
   params.limit = kScallop + 0.5 * kTolerance;
   return params;
@@ -34,7 +34,7 @@ RestPassParams Coverage() {
 std::vector<CutterPath> Zigzag(const Locator& locator, double angle, double max_slope = kPi / 2) {
   ZigzagParams params;
   params.pass.scallop = kScallop;
-  params.pass.chord_tolerance = 0.4 * kTolerance;
+  params.pass.chord_tolerance = kChordTolerance;
   params.angle = angle;
   params.pass.window.max = max_slope;
   auto paths = ZigzagPaths(locator, params, RunContext(1));
@@ -84,11 +84,14 @@ Leftover Measure(const Surface& surface, double radius, const std::vector<Cutter
   return out;
 }
 
-// Certified chords of the added passes: dense probes with smaller balls.
+// Certified chords of the added passes: dense probes with smaller balls. Rest passes stay straight, so they
+// may use the share of arcs, too.
 int Gouges(const Surface& surface, double radius, const std::vector<CutterPath>& paths) {
-  const Locator smaller(surface, radius - 0.4 * kTolerance - 1e-7);
+  const Locator pencils(surface, radius - kChordTolerance - 1e-7);
+  const Locator rests(surface, radius - ReachTolerance(kTolerance) - 1e-7);
   int bad = 0;
   for (const auto& path : paths) {
+    const Locator& smaller = path.kind == PassKind::kRest ? rests : pencils;
     for (std::size_t i = 0; i + 1 < path.points.size(); ++i) {
       for (int k = 0; k <= 4; ++k) {
         const Vec3 x = path.points[i].center + 0.25 * k * (path.points[i + 1].center - path.points[i].center);
