@@ -110,7 +110,7 @@ absl::StatusOr<std::shared_ptr<const StockSolid>> ResolveStock(const Surface& su
   if (std::holds_alternative<NoStockBody>(setup.stock_body)) return nullptr;
   const Ring ring = StockOutline(setup, r.box, r.program_zero);
   if (const std::string fault = OutlineFault({ring}); !fault.empty())
-    return FieldError("setup.stock", fmt::format("has an outline that {}", fault));
+    return FieldError("setup.stock", "is no outline: " + fault);
   if (!setup.allowance_stated)
     return std::make_shared<const StockSolid>(StockSolid::Whole(Outline({ring}), r.stock_top_z));
   PM_ASSIGN_OR_RETURN(StockSolid solid, StockSolid::Roughed(Outline({ring}), r.stock_top_z, surface, run));

@@ -18,6 +18,7 @@
 #include "cam/plan/beside_depth.h"
 #include "cam/plan/circular_lines_choice.h"
 #include "cam/plan/forced_strategy.h"
+#include "cam/plan/job_findings.h"
 #include "cam/plan/plan.h"
 #include "cam/plan/plan_passes.h"
 #include "cam/plan/quickest_angles.h"
@@ -125,73 +126,6 @@ LinkParams MakeLinkParams(const Job& job, const Resolved& resolved, const Operat
   return p;
 }
 
-const char* NameOf(const decltype(Setup::stock_body)& body) {
-  if (std::holds_alternative<BlockStock>(body)) return "block";
-  if (std::holds_alternative<CylinderStock>(body)) return "cylinder";
-  return "prism";
-}
-
-Diagnostic Warning(std::string code, std::string message) {
-  Diagnostic d;
-  d.code = std::move(code);
-  d.severity = Severity::kWarning;
-  d.message = std::move(message);
-  return d;
-}
-
-// What the machinist must know before pressing start ([machining M1, M5, M9, M14]).
-Diagnostics Assumptions(const Job& job, const Resolved& r) {
-  Diagnostics list;
-  const double zero_z = r.program_zero.z();
-  std::string stock = fmt::format("at most {:.3g} mm of material on the surface", job.setup.allowance);
-  if (r.stock == nullptr) {
-    stock += ", none beside it";
-  } else if (job.setup.allowance_stated) {
-    stock += fmt::format(", the rest of the {} beside it", NameOf(job.setup.stock_body));
-  } else {
-    stock = fmt::format("a whole {}, from which nothing has been cut", NameOf(job.setup.stock_body));
-  }
-  stock += fmt::format(", nothing above Z{:.4f}", r.stock_top_z - zero_z);
-  list.push_back(StockIsStated(job.setup) ? Warning("STOCK_STATED", stock)
-                                          : Warning("STOCK_ASSUMED", "assumed: " + stock));
-  if (job.operation.accept_depth > job.setup.allowance) {
-    list.push_back(Warning(
-        "DEPTH_ACCEPTED",
-        fmt::format("cuts up to {:.3g} mm deep into the stock are accepted", job.operation.accept_depth)));
-  }
-  if (StockIsStated(job.setup) && !job.operation.high_rapids) {
-    list.push_back(
-        Warning("LOW_RAPIDS",
-                "rapids between passes go below the clearance plane, clear of that material however "
-                "the control drives its axes"));
-  }
-  list.push_back(Warning("HOLDER_NOT_CHECKED", "the holder is not checked; see required_stickout_mm"));
-  if (job.default_cutting_data) {
-    list.push_back(Warning(
-        "DEFAULT_CUTTING_DATA",
-        fmt::format(
-            "spindle {:.0f} rpm, feed {:.0f} and plunge feed {:.0f} mm/min: not all are given, and defaults "
-            "are not made for this material",
-            job.operation.tool.spindle_rpm, job.operation.tool.feed, job.operation.tool.plunge_feed)));
-  }
-  if (job.operation.tool.plunge_feed > job.operation.tool.feed) {
-    list.push_back(Warning("PLUNGE_FEED_ABOVE_FEED",
-                           fmt::format("descents steeper than {:.0f} degrees run at {:.6g} mm/min, faster "
-                                       "than the feed, {:.6g} mm/min",
-                                       Degrees(job.operation.plunge_angle), job.operation.tool.plunge_feed,
-                                       job.operation.tool.feed)));
-  }
-  const double extent = (r.box.max - r.box.min).maxCoeff();
-  if (job.unitless_file && (extent < 4.0 * r.radius || extent > 2000.0)) {
-    list.push_back(
-        Warning("SUSPICIOUS_SIZE",
-                fmt::format("the model is {:.4g} mm large for a ball of diameter {:.4g} mm and its file "
-                            "states no unit: is --scale right?",
-                            extent, 2.0 * r.radius)));
-  }
-  return list;
-}
-
 std::vector<std::string> Header(const Job& job, const Resolved& r, const Diagnostics& assumptions) {
   std::vector<std::string> lines = job.header;
   lines.push_back(fmt::format(
@@ -276,59 +210,6 @@ absl::Status CheckMotion(const PathLimits& limits, const LinkResult& linked) {
       "with their links");
 }
 
-// Names what forbids most of what is wanted, and what to look at first.
-// `reached`: mm2, too little to be cut (VerifyReport::NothingToFinish); 0: there are no passes at all.
-Diagnostic NothingToCut(const JobReport& report, const Resolved& resolved, bool limited, double reached) {
-  double all = 0.0, off = 0.0, on = 0.0, outside = 0.0;
-  double avoided = 0.0, shank = 0.0, strategy = 0.0;
-  for (const Region& region : report.regions) {
-    const auto id = region.id.index();
-    const double wanted = report.figures[id].selected_share * region.area;
-    all += wanted;
-    if (region.kind != RegionKind::kUnreachable) (report.choices[id].skip ? off : on) += wanted;
-    if (region.reason == UnreachableReason::kOutside) outside += wanted;
-    if (region.reason == UnreachableReason::kAvoided) avoided += wanted;
-    if (region.reason == UnreachableReason::kShank) shank += wanted;
-    if (region.reason == UnreachableReason::kStrategy) strategy += wanted;
-  }
-  const Vec3 size = resolved.box.max - resolved.box.min;
-  const std::string scale = fmt::format("--scale ({:.4g} x {:.4g} x {:.4g} mm now), then --up and --floor",
-                                        size.x(), size.y(), size.z());
-  if (off > 0.0 && !(on > 0.0)) {
-    return Warning(
-        "NOTHING_TO_CUT",
-        fmt::format("all that is wanted and a ball of diameter {:.4g} mm reaches, {:.1f} mm2, is in "
-                    "regions that are switched off",
-                    2.0 * resolved.radius, off));
-  }
-  const std::string limits = "the selection, the boundary, the regions, --top and the obstacles";
-  std::string shares;
-  const auto tell = [&](double area, const char* reason) {
-    if (!(area > 0.0)) return;
-    shares += fmt::format("{}{:.0f} % of it is {}", shares.empty() ? " (" : ", ", 100.0 * area / all, reason);
-  };
-  tell(outside, Name(UnreachableReason::kOutside));
-  tell(avoided, Name(UnreachableReason::kAvoided));
-  tell(shank, Name(UnreachableReason::kShank));
-  tell(strategy, Name(UnreachableReason::kStrategy));
-  if (!shares.empty()) shares += ")";
-  std::string look = limited ? scale + ", then " + limits : scale;
-  if (avoided >= 0.5 * all) look = limits + ", then " + scale;
-  if (outside > 0.5 * all) look = "--outside, or the walls' names in --only, then " + scale;
-  if (shank > 0.5 * all) look = "the length of flutes and the shank, then " + scale;
-  if (strategy > 0.5 * all) look = "the forced strategy, then " + scale;
-  const char* of = limited ? "that is wanted" : "of the model";
-  const std::string what =
-      reached > 0.0
-          ? fmt::format(
-                "a ball of diameter {:.4g} mm reaches {:.3g} of {:.3g} mm2 {}, less than a square of "
-                "its step-over",
-                2.0 * resolved.radius, reached, all, of)
-          : fmt::format("no point {} can be reached with a ball of diameter {:.4g} mm", of,
-                        2.0 * resolved.radius);
-  return Warning("NOTHING_TO_CUT", fmt::format("{}{}: check {}", what, shares, look));
-}
-
 // The feed moves of the ball's centre.
 std::vector<PathSegment> FeedsOf(const Toolpath& toolpath) {
   std::vector<PathSegment> feeds;
@@ -337,40 +218,6 @@ std::vector<PathSegment> FeedsOf(const Toolpath& toolpath) {
     feeds.push_back({toolpath.moves[i - 1].to, toolpath.moves[i].to, static_cast<int>(i)});
   }
   return feeds;
-}
-
-Diagnostic NeedsRoughing(const DeepCuts& deep, const Job& job, const Resolved& resolved) {
-  const double step = CenterStep(resolved.plan_radius, job.operation.scallop, 0.0);
-  const Vec3 tip = deep.center - resolved.program_zero - Vec3(0.0, 0.0, resolved.radius);
-  const std::string stated = job.setup.allowance_stated
-                                 ? ""
-                                 : ", say --allowance if the stock over the part has been roughed to it,";
-  Diagnostic d = MakeError(
-      "NEEDS_ROUGHING",
-      fmt::format(
-          "the ball would cut {:.3g} mm deep into the stock at X{:.4f} Y{:.4f} Z{:.4f}, and more than "
-          "{:.3g} mm deep over about {:.3g} mm2: rough it first{} or raise --accept-depth",
-          deep.deepest, tip.x(), tip.y(), tip.z(), resolved.depth_limit, deep.length * step, stated),
-      {});
-  d.where.point = deep.center - Vec3(0.0, 0.0, resolved.radius);
-  return d;
-}
-
-// One finding for each lead onto a pass that is steeper against it than a ramp, up to a number of them.
-Diagnostics SteepLeads(const std::vector<LeadFigure>& leads, const Resolved& resolved) {
-  constexpr std::size_t kMost = 20;
-  Diagnostics list;
-  for (const LeadFigure& lead : leads) {
-    if (lead.kind != LeadKind::kStraight || !lead.in || list.size() >= kMost) continue;
-    const Vec3 tip = lead.place - resolved.program_zero - Vec3(0.0, 0.0, resolved.radius);
-    list.push_back(Warning(
-        "STEEP_LEAD",
-        fmt::format("the tool comes onto a pass from beside or above it at X{:.4f} Y{:.4f} Z{:.4f}: there is "
-                    "no room for an arc of {:.3g} mm, and the pass is too short for a ramp",
-                    tip.x(), tip.y(), tip.z(), kLeastLeadRadius)));
-    list.back().where.point = lead.place - Vec3(0.0, 0.0, resolved.radius);
-  }
-  return list;
 }
 
 }  // namespace
@@ -549,7 +396,7 @@ absl::StatusOr<JobResult> PlanAndJudge(const Surface& surface, const Job& job, c
                         PostAndVerify(context, result.motion.toolpath, post, verify, most_moves));
     clock.Done("verify without arcs");
     if (straight.report.ok()) {
-      report.diagnostics.push_back(Warning(
+      report.diagnostics.push_back(MakeWarning(
           "ARCS_LEFT_OUT", "with arcs a promise would be broken, so the program has straight moves only"));
       program = std::move(straight);
       result.posted = result.motion.toolpath;
@@ -562,7 +409,7 @@ absl::StatusOr<JobResult> PlanAndJudge(const Surface& surface, const Job& job, c
   if (report.verify.NothingToFinish()) return nothing(report.verify.reachable_area);
   const std::optional<double>& stickout = job.operation.tool.stickout;
   if (stickout && *stickout < report.verify.required_stickout) {
-    report.diagnostics.push_back(Warning(
+    report.diagnostics.push_back(MakeWarning(
         "STICKOUT_TOO_SHORT",
         fmt::format(
             "tool.stickout_mm = {:.4g}; material may stand {:.4g} mm above the tip, where the holder is",

@@ -1,0 +1,27 @@
+// Findings of a job as a whole, in words: what it assumes, and why it ends without a program.
+#pragma once
+
+#include <vector>
+
+#include "cam/plan/job.h"
+#include "cam/plan/resolve.h"
+#include "cam/verify/stock_moves.h"
+
+namespace patchmill {
+
+// What the machinist must know before pressing start ([machining M1, M5, M9, M14]).
+Diagnostics Assumptions(const Job& job, const Resolved& r);
+
+// NOTHING_TO_CUT. It names what forbids most of what is wanted, and what to look at first. `limited`:
+// limits of the operation count. `reached`: mm2, too little to be cut (VerifyReport::NothingToFinish); 0:
+// there are no passes at all.
+Diagnostic NothingToCut(const JobReport& report, const Resolved& resolved, bool limited, double reached);
+
+// NEEDS_ROUGHING, with the place of the deepest cut. The area is the length of the cuts that are too deep
+// times the step-over of a plane.
+Diagnostic NeedsRoughing(const DeepCuts& deep, const Job& job, const Resolved& resolved);
+
+// STEEP_LEAD for each lead onto a pass that is steeper against it than a ramp, for the first 20 of them.
+Diagnostics SteepLeads(const std::vector<LeadFigure>& leads, const Resolved& resolved);
+
+}  // namespace patchmill
