@@ -60,7 +60,7 @@ std::vector<Gap> GapsFor(const std::vector<CutterPath>& passes, std::size_t whic
 }
 
 // Cost of the link from one pass to another, s.
-double LinkTime(const LinkMaker& maker, const CutterPath& from, const CutterPath& to) {
+double LinkCost(const LinkMaker& maker, const CutterPath& from, const CutterPath& to) {
   const PassEnd end = PassEnd::End(from);
   return CostOf(maker, end, LinkTo(maker, end, to));
 }
@@ -85,14 +85,14 @@ absl::StatusOr<std::vector<CutterPath>> InsertPasses(const LinkMaker& maker, std
     // The cost that is saved if the pass is removed from its place, s.
     double least = CostOf(maker, end, in);
     if (i + 1 < passes.size())
-      least += LinkTime(maker, passes[i], passes[i + 1]) - LinkTime(maker, before, passes[i + 1]);
+      least += LinkCost(maker, passes[i], passes[i + 1]) - LinkCost(maker, before, passes[i + 1]);
     std::optional<Gap> best;
     CutterPath reversed = passes[i];
     Reverse(reversed);
     for (const Gap& gap : GapsFor(passes, i, longest)) {
       const CutterPath &pass = gap.reversed ? reversed : passes[i], &from = passes[gap.after],
                        &to = passes[gap.after + 1];
-      const double cost = LinkTime(maker, from, pass) + LinkTime(maker, pass, to) - LinkTime(maker, from, to);
+      const double cost = LinkCost(maker, from, pass) + LinkCost(maker, pass, to) - LinkCost(maker, from, to);
       if (!(cost < least)) continue;
       least = cost;
       best = gap;

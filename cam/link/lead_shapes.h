@@ -40,7 +40,7 @@ struct LeadArc {
   std::vector<Vec3> places;  // ball centres, from the end of the pass outwards
 };
 
-// Where an arc meets a pass.
+// The place where an arc meets a pass.
 struct LeadPlace {
   Vec3 center = Vec3::Zero();    // of the ball
   Vec3 normal = Vec3::UnitZ();   // unit, of the contact

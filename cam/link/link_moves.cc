@@ -152,6 +152,7 @@ Link LinkMaker::Over(const PassEnd& end, const PassEnd& start) const {
     link.moves = std::move(moves);
     link.saved_by_low_rapids = 0.0;
   };
+  if (!params_.low_rapids) return link;
   if (const auto level = BesideStock(out.places.front(), in.places.front()))
     take(with_leads({*level}, false));
   if (const auto above = AboveStock(out.clear, in.clear, least)) take(with_leads(*above, true));

@@ -29,6 +29,7 @@ class LinkMaker {
             const RunContext& run);
 
   const LinkParams& params() const { return params_; }
+  const MoveCheck& check() const { return check_; }
 
   // Feed moves of a stay-down link: straight if the swept ball is certified not to gouge, else along the
   // centre surface. If both ends are close to each other, it also tries ways a little off the wall. nullopt
@@ -41,9 +42,9 @@ class LinkMaker {
   // The way from the clearance plane to the start of a pass: rapid at the clearance plane, rapid down to
   // where the stock may begin, plunge feed, and the lead.
   Link Approach(const PassEnd& start) const;
-  // A lead off the end of a pass and one onto the start of another. Between them the ball goes at feed,
-  // beside the stock or close above it, if that costs no more than rapids. Low rapids go only so high that
-  // every place of the rectangle between the two is clear of the stock [verification P3].
+  // A lead off the end of a pass and one onto the start of another. Between them the ball goes by rapids.
+  // With low rapids it goes at feed, beside the stock or close above it, if that costs less. Low rapids go
+  // only so high that every place of the rectangle between the two is clear of the stock [verification P3].
   Link Over(const PassEnd& end, const PassEnd& start) const;
 
  private:

@@ -87,7 +87,6 @@ absl::StatusOr<LinkResult> LinkPaths(const Locator& locator, const RegionMap& re
                                   run));
   const Locator stock_locator(locator.surface(), clear);
   const LinkMaker maker(locator, stock_locator, params, run);
-  const MoveCheck check(locator, stock_locator, params);
   PM_ASSIGN_OR_RETURN(result.passes, InsertPasses(maker, std::move(result.passes), params, run));
   std::vector<Move>& moves = result.toolpath.moves;
 
@@ -102,7 +101,7 @@ absl::StatusOr<LinkResult> LinkPaths(const Locator& locator, const RegionMap& re
     const CutterPath& pass = result.passes[i];
     add(i == 0 ? maker.Approach(PassEnd::Start(pass))
                : LinkTo(maker, PassEnd::End(result.passes[i - 1]), pass));
-    AppendPass(pass, static_cast<int>(i), check, moves);
+    AppendPass(pass, static_cast<int>(i), maker.check(), moves);
     run.Progress("link", static_cast<double>(i + 1) / static_cast<double>(result.passes.size()));
   }
   if (!result.passes.empty()) add(maker.Retract(PassEnd::End(result.passes.back())));

@@ -27,8 +27,8 @@ struct LinkParams {
   double clearance_z = 0.0;  // mm, TIP height of rapids, above model and stock
   double stock_top_z = 0.0;  // mm
   double allowance = 0.5;    // mm, stock allowance along the normal
-  // If true, rapids between passes run as low as they are proven clear of the stock; else at the clearance
-  // plane.
+  // If true, the stock is known: rapids between passes run as low as they are proven clear of it, and links
+  // at feed close to it may take their place. Else rapids run at the clearance plane.
   bool low_rapids = false;
   double tool_radius = 0.0;   // mm, larger radius of ball and shank; for low rapids only
   double shank_lower = 0.0;   // mm, how far below the ball's centre a wide shank begins, including the stock

@@ -15,7 +15,8 @@ struct DrillingCycle {
   Vec2 hole = Vec2::Zero();
   double retract_z = 0.0;  // R: rapids end and feeds begin here
   double bottom_z = 0.0;   // at most retract_z
-  // Where the tool goes after the hole: as high as retract_z, or back to where the series of cycles began.
+  // Height to which the tool rises after the hole: retract_z (G99), or that at which the series of cycles
+  // began (G98).
   double end_z = 0.0;
   bool ends_above = false;
 };

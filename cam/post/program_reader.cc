@@ -101,7 +101,7 @@ class Interpreter {
   int feed_mode_line_ = 0;               // its line
   std::optional<double> offset_number_;  // the last D of G41 or G42
   int cycle_end_ = 0;                    // G98 or G99 as code; 0 if not stated yet
-  // Of a series of canned cycles: words that stay in force, and where it began.
+  // Words that stay in force through a series of canned cycles, and the height at which the series began.
   struct Series {
     std::optional<double> r, z, q;
     double begin_z = 0.0;

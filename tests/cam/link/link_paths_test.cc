@@ -259,7 +259,6 @@ TEST(LinkPaths, FarPassesRetractAndConventionalTurnsContours) {
       Build(testing::Join({testing::Plane(60), testing::Sphere(Vec3::Zero(), 8, Half::kUpper)}));
   const Locator locator(surface, kRadius);
   LinkParams params = Params();
-  params.retract_time = 0.0;
   params.contour_direction = CutDirection::kConventional;
   const auto result = LinkPaths(
       locator, {},
@@ -364,11 +363,12 @@ TEST(LinkPaths, StaysCloseAboveTheStockWhereARetractCostsMore) {
   const Surface surface =
       Build(testing::Join({testing::Plane(60), testing::Cylinder(Vec3::Zero(), 6, 50, Half::kUpper)}));
   const Locator locator(surface, kRadius);
-  const LinkParams params = Params();
+  const std::vector<CutterPath> paths = {Line(locator, 0, {-20, -5}, {-20, 5}),
+                                         Line(locator, 9, {20, 5}, {20, -5})};
+  LinkParams params = Params();
+  params.low_rapids = true;
   const Locator stock(surface, kRadius + params.allowance);
-  const auto result =
-      LinkPaths(locator, {}, {Line(locator, 0, {-20, -5}, {-20, 5}), Line(locator, 9, {20, 5}, {20, -5})},
-                params, RunContext{});
+  const auto result = LinkPaths(locator, {}, paths, params, RunContext{});
   ASSERT_TRUE(result.ok()) << result.status();
   CheckMotion(surface, *result, params);
   EXPECT_EQ(result->stats.retract_count, 1);
@@ -381,6 +381,12 @@ TEST(LinkPaths, StaysCloseAboveTheStockWhereARetractCostsMore) {
     EXPECT_EQ(moves[i].feed, params.feed) << "in air, however steep";
   }
   EXPECT_TRUE(crosses);
+  // Where nobody has stated the stock, nothing goes low over it.
+  params.low_rapids = false;
+  const auto high = LinkPaths(locator, {}, paths, params, RunContext{});
+  ASSERT_TRUE(high.ok()) << high.status();
+  EXPECT_EQ(high->stats.retract_count, 2);
+  EXPECT_GT(high->stats.saved_by_low_rapids, 0.0);
 }
 
 TEST(LinkPaths, NothingInNothingOut) {

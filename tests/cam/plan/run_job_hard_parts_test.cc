@@ -41,6 +41,7 @@ TEST(RunJobHardParts, Copies) {
   const JobResult two = testing::MillChecked(testing::PlacedSurface(both), HardJob());
   EXPECT_NEAR(two.report.least_cut_length, one.report.least_cut_length, 0.01 * one.report.least_cut_length);
   EXPECT_GE(two.report.verify.cut_length, two.report.least_cut_length);
+  // Links of such a short job may differ by some percent.
   EXPECT_LE(two.report.verify.cut_length, 1.15 * one.report.verify.cut_length);
 }
 
