@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <optional>
 #include <span>
 #include <string>
@@ -284,6 +285,18 @@ absl::StatusOr<VerifiedProgram> PostAndVerify(const JobContext& context, const T
   return program;
 }
 
+// The time of the posted motion on the machine of the job.
+ToolpathTimes PostedTimes(const Job& job, const Resolved& resolved, const JobResult& result) {
+  std::optional<LinuxCncPlanner> planner;
+  if (job.dialect.linuxcnc_planner) {
+    const bool stated =
+        !job.dialect.path_tolerance.empty() && resolved.budget.controller >= job.dialect.least_tolerance;
+    planner = {.tolerance = stated ? resolved.budget.controller : 0.0,
+               .step = std::pow(10.0, -job.dialect.decimals)};
+  }
+  return TimesOn(*job.setup.machine, result.posted, result.regions.regions.size(), planner);
+}
+
 absl::StatusOr<JobResult> PlanAndJudge(const Surface& surface, const Job& job, const RunContext& run) {
   PM_RETURN_IF_ERROR(ValidateJob(job));
   PM_ASSIGN_OR_RETURN(const Resolved resolved, Resolve(surface, job, run));
@@ -358,8 +371,7 @@ absl::StatusOr<JobResult> PlanAndJudge(const Surface& surface, const Job& job, c
   report.diagnostics.insert(report.diagnostics.end(), beside.begin(), beside.end());
   clock.Done("link");
   report.leads = result.motion.leads;
-  if (job.setup.machine)
-    report.times = TimesOn(*job.setup.machine, result.posted, result.regions.regions.size());
+  if (job.setup.machine) report.times = PostedTimes(job, resolved, result);
   const Diagnostics steep = SteepLeads(report.leads, resolved);
   report.diagnostics.insert(report.diagnostics.end(), steep.begin(), steep.end());
   if (resolved.stock != nullptr) {
@@ -401,8 +413,7 @@ absl::StatusOr<JobResult> PlanAndJudge(const Surface& surface, const Job& job, c
       program = std::move(straight);
       result.posted = result.motion.toolpath;
       report.point_count = static_cast<int>(result.posted.moves.size());
-      if (job.setup.machine)
-        report.times = TimesOn(*job.setup.machine, result.posted, result.regions.regions.size());
+      if (job.setup.machine) report.times = PostedTimes(job, resolved, result);
     }
   }
   report.verify = std::move(program.report);

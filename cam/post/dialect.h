@@ -68,6 +68,9 @@ struct Dialect {
   std::string exact_path;
   // Used where path_tolerance is empty and the user states by how much the control leaves the path.
   std::string assumed_path;
+  // The time on a machine is that of LinuxCNC's planner (cam/toolpath/linuxcnc_times.h). Else the junction
+  // deviation of the machine says how fast corners are passed.
+  bool linuxcnc_planner = false;
 
   DialectArcs arcs;
 

@@ -156,6 +156,8 @@ const std::map<std::string, Reader, std::less<>>& Keys() {
       {"path.tolerance_least", [](View v, Dialect& d) { return ReadNumber(v, 0.0, 1.0, d.least_tolerance); }},
       {"path.exact", [](View v, Dialect& d) { return ReadPathTemplate(v, false, d.exact_path); }},
       {"path.assumed", [](View v, Dialect& d) { return ReadPathTemplate(v, false, d.assumed_path); }},
+      {"path.planner",
+       [](View v, Dialect& d) { return ReadChoice(v, "junction", "linuxcnc", d.linuxcnc_planner); }},
       {"arcs.planes", [](View v, Dialect& d) { return ReadPlanes(v, d.arcs.planes); }},
       {"arcs.helices", [](View v, Dialect& d) { return ReadChoice(v, "no", "yes", d.arcs.helices); }},
       {"arcs.largest_radius",

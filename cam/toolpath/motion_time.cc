@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <utility>
+
+#include "cam/toolpath/trapezoids.h"
 
 namespace patchmill {
 namespace {
@@ -10,84 +13,45 @@ namespace {
 constexpr double kLeastSagitta = 1e-3;  // mm
 constexpr double kShortest = 1e-9;      // mm; a shorter move takes no time
 
-// A move with what the axes allow along it; mm and s.
-struct Stretch {
-  double length = 0.0;
+// A straight move with what the axes allow along it.
+struct StraightStretch {
+  Stretch along;
   Vec3 direction = Vec3::Zero();
-  double speed = 0.0, acceleration = 0.0;
 };
 
-Stretch StretchOf(const TimedMove& move, const Machine& machine) {
-  Stretch s;
-  s.length = move.way.norm();
-  if (s.length < kShortest) return s;
-  s.direction = move.way / s.length;
-  s.speed = move.rapid ? kInfinity : move.feed / 60.0;
-  s.acceleration = kInfinity;
+StraightStretch StretchOf(const TimedMove& move, const Machine& machine) {
+  StraightStretch s;
+  s.along.length = move.way.norm();
+  if (s.along.length < kShortest) return s;
+  s.direction = move.way / s.along.length;
+  s.along.speed = move.rapid ? kInfinity : move.feed / 60.0;
+  s.along.acceleration = kInfinity;
   for (int k = 0; k < 3; ++k) {
     const double share = std::abs(s.direction[k]);
     if (share < 1e-12) continue;
     const MachineAxis& axis = machine.axes[static_cast<std::size_t>(k)];
-    s.speed = std::min(s.speed, (move.rapid ? axis.rapid : axis.feed) / 60.0 / share);
-    s.acceleration = std::min(s.acceleration, axis.acceleration / share);
+    s.along.speed = std::min(s.along.speed, (move.rapid ? axis.rapid : axis.feed) / 60.0 / share);
+    s.along.acceleration = std::min(s.along.acceleration, axis.acceleration / share);
   }
   return s;
 }
 
 // The speed at the corner between two stretches, mm/s.
-double CornerSpeed(const Stretch& a, const Stretch& b, double deviation) {
-  const double slower = std::min(a.speed, b.speed);
+double CornerSpeed(const StraightStretch& a, const StraightStretch& b, double deviation) {
+  const double slower = std::min(a.along.speed, b.along.speed);
   const double cosine = std::clamp(a.direction.dot(b.direction), -1.0, 1.0);
   if (cosine > 1.0 - 1e-12) return slower;
   // Half the inner angle of the corner: 1 for straight on, 0 for a turn back.
   const double half = std::sqrt(0.5 * (1.0 + cosine));
-  const double acceleration = std::min(a.acceleration, b.acceleration);
+  const double acceleration = std::min(a.along.acceleration, b.along.acceleration);
   return std::min(slower, std::sqrt(acceleration * deviation * half / (1.0 - half)));
 }
 
-// The time over a stretch that begins and ends with these speeds, which its acceleration allows.
-double TimeOver(const Stretch& s, double from, double to) {
-  // The speed at the top of a triangle; the stretch's own limit cuts it to a trapezoid.
-  const double top = std::min(s.speed, std::sqrt(s.acceleration * s.length + 0.5 * (from * from + to * to)));
-  const double ramps = (top - from) + (top - to);
-  const double ramps_length = (2.0 * top * top - from * from - to * to) / (2.0 * s.acceleration);
-  return ramps / s.acceleration + std::max(0.0, s.length - ramps_length) / top;
-}
-
-}  // namespace
-
-std::vector<double> MoveTimes(std::span<const TimedMove> moves, const Machine& machine) {
-  std::vector<Stretch> stretches;
-  std::vector<std::size_t> of;  // index of the move
-  for (std::size_t i = 0; i < moves.size(); ++i) {
-    const Stretch s = StretchOf(moves[i], machine);
-    if (s.length < kShortest) continue;
-    stretches.push_back(s);
-    of.push_back(i);
-  }
-  std::vector<double> times(moves.size(), 0.0);
-  if (stretches.empty()) return times;
-  // corner[k] is the speed at the start of stretch k; one more for the end.
-  std::vector<double> corner(stretches.size() + 1, 0.0);
-  for (std::size_t k = 1; k < stretches.size(); ++k)
-    corner[k] = CornerSpeed(stretches[k - 1], stretches[k], machine.junction_deviation);
-  const auto reachable = [](const Stretch& s, double from) {
-    return std::sqrt(from * from + 2.0 * s.acceleration * s.length);
-  };
-  for (std::size_t k = stretches.size(); k-- > 0;)
-    corner[k] = std::min(corner[k], reachable(stretches[k], corner[k + 1]));
-  for (std::size_t k = 0; k < stretches.size(); ++k)
-    corner[k + 1] = std::min(corner[k + 1], reachable(stretches[k], corner[k]));
-  for (std::size_t k = 0; k < stretches.size(); ++k)
-    times[of[k]] = TimeOver(stretches[k], corner[k], corner[k + 1]);
-  return times;
-}
-
-ToolpathTimes TimesOn(const Machine& machine, const Toolpath& toolpath, std::size_t regions) {
+// The time of each move of a toolpath, s. Chords that are off their arc by the junction deviation are passed,
+// corner by corner, at the speed whose centripetal acceleration on the arc is that of the axes.
+std::vector<double> JunctionTimes(const Machine& machine, const Toolpath& toolpath) {
   std::vector<TimedMove> moves;
   std::vector<std::size_t> of;  // index of the toolpath's move
-  // Chords that are off their arc by the junction deviation are passed, corner by corner, at the speed whose
-  // centripetal acceleration on the arc is that of the axes.
   const double sagitta = std::max(machine.junction_deviation, kLeastSagitta);
   for (std::size_t i = 1; i < toolpath.moves.size(); ++i) {
     const Move& move = toolpath.moves[i];
@@ -103,11 +67,42 @@ ToolpathTimes TimesOn(const Machine& machine, const Toolpath& toolpath, std::siz
       add(move.to);
     }
   }
-  const std::vector<double> times = MoveTimes(moves, machine);
+  const std::vector<double> taken = MoveTimes(moves, machine);
+  std::vector<double> times(toolpath.moves.size(), 0.0);
+  for (std::size_t k = 0; k < taken.size(); ++k) times[of[k]] += taken[k];
+  return times;
+}
+
+}  // namespace
+
+std::vector<double> MoveTimes(std::span<const TimedMove> moves, const Machine& machine) {
+  std::vector<Stretch> stretches;
+  std::vector<double> corners;  // speeds at the start of each stretch, and at the end
+  std::vector<std::size_t> of;  // index of the move
+  StraightStretch before;
+  for (std::size_t i = 0; i < moves.size(); ++i) {
+    const StraightStretch s = StretchOf(moves[i], machine);
+    if (s.along.length < kShortest) continue;
+    corners.push_back(stretches.empty() ? 0.0 : CornerSpeed(before, s, machine.junction_deviation));
+    stretches.push_back(s.along);
+    of.push_back(i);
+    before = s;
+  }
+  corners.push_back(0.0);
+  std::vector<double> times(moves.size(), 0.0);
+  const std::vector<double> taken = TrapezoidTimes(stretches, std::move(corners));
+  for (std::size_t k = 0; k < taken.size(); ++k) times[of[k]] = taken[k];
+  return times;
+}
+
+ToolpathTimes TimesOn(const Machine& machine, const Toolpath& toolpath, std::size_t regions,
+                      const std::optional<LinuxCncPlanner>& planner) {
+  const std::vector<double> times =
+      planner ? LinuxCncTimes(machine, toolpath, *planner) : JunctionTimes(machine, toolpath);
   ToolpathTimes sums;
   sums.of_region.assign(regions, 0.0);
   for (std::size_t i = 0; i < times.size(); ++i) {
-    const Move& move = toolpath.moves[of[i]];
+    const Move& move = toolpath.moves[i];
     sums.total += times[i];
     sums.of_kind[move.kind] += times[i];
     if (move.region != kNoRegion && move.region.index() < regions)

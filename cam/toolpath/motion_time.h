@@ -1,9 +1,11 @@
 // The time that a machine takes for a motion, accelerations included.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
+#include "cam/toolpath/linuxcnc_times.h"
 #include "cam/toolpath/machine.h"
 #include "cam/toolpath/toolpath.h"
 #include "core/base/enum_array.h"
@@ -24,12 +26,14 @@ struct TimedMove {
 std::vector<double> MoveTimes(std::span<const TimedMove> moves, const Machine& machine);
 
 // The time of a toolpath, s, by what its moves are for. On an arc the centripetal acceleration is at most
-// that of the axes.
+// that of the axes. With a planner, the time is that of LinuxCNC, which takes its tolerance from the program
+// and not the junction deviation of the machine.
 struct ToolpathTimes {
   double total = 0.0;
   EnumArray<MoveKind, double> of_kind{};
   std::vector<double> of_region;  // of its passes, by the region's id
 };
-ToolpathTimes TimesOn(const Machine& machine, const Toolpath& toolpath, std::size_t regions);
+ToolpathTimes TimesOn(const Machine& machine, const Toolpath& toolpath, std::size_t regions,
+                      const std::optional<LinuxCncPlanner>& planner = std::nullopt);
 
 }  // namespace patchmill

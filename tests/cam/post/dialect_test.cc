@@ -480,6 +480,11 @@ TEST(DialectReader, CentresCountFromTheStartWhereTheControlSaysSo) {
   EXPECT_TRUE(assumed("linuxcnc") && assumed("mach3"));
 }
 
+TEST(Dialects, OfLinuxCncHasItsPlanner) {
+  for (const Dialect& dialect : Dialects())
+    EXPECT_EQ(dialect.linuxcnc_planner, dialect.name == "linuxcnc") << dialect.name;
+}
+
 TEST(ControlDeviation, IsTheUsersStatement) {
   for (const char* name : {"fanuc", "mach3"}) {
     PostParams params = ParamsFor(*FindDialect(name));
