@@ -65,7 +65,7 @@ fuzz() {  # a minute of each target
     mkdir -p "$found"
     echo "$target"
     "$target" -max_total_time=60 -print_final_stats=1 -artifact_prefix="$found/" "$found" tests/models tests/models/malformed \
-      tests/models/curves tests/models/networks tests/golden cam/post/dialects examples > "$found.log" 2>&1 || { tail -30 "$found.log"; failed=1; }
+      tests/models/curves tests/models/networks tests/golden cam/post/dialects examples docs > "$found.log" 2>&1 || { tail -30 "$found.log"; failed=1; }
     grep -E 'number_of_executed_units|new_units_added' "$found.log" || true
   done
   return "$failed"

@@ -109,6 +109,11 @@ void AddNames(const std::vector<std::string>& names, Canonical& out) {
 // The stock beyond its top and its allowance.
 void AddStock(const Setup& setup, Canonical& out) {
   if (setup.allowance_stated) out.Add("allowance stated");
+  if (!setup.zero_stated) out.Add("zero assumed");
+  for (const WallSide& side : setup.wall_sides) {
+    out.Add("wall side").Add(side.name);
+    AddPoint(side.air, out);
+  }
   if (const auto* block = std::get_if<BlockStock>(&setup.stock_body)) out.Add("block").Add(block->margin);
   if (const auto* outline = std::get_if<OutlineStock>(&setup.stock_body)) {
     out.Add("outline");
@@ -135,8 +140,10 @@ void AddMotion(const Operation& op, Canonical& out) {
   if (op.lead_radius) out.Add("lead radius").Add(*op.lead_radius);
   if (op.lead_sweep != usual.lead_sweep) out.Add("lead sweep").Add(op.lead_sweep);
   if (op.plunge_angle != usual.plunge_angle) out.Add("plunge angle").Add(op.plunge_angle);
+  if (op.keep_feed) out.Add("keep feed");
   if (op.link_feed) out.Add("link feed").Add(*op.link_feed);
   if (op.lead_feed) out.Add("lead feed").Add(*op.lead_feed);
+  if (op.max_unreached != usual.max_unreached) out.Add("max unreached").Add(op.max_unreached);
   if (op.accept_depth != 0.0) out.Add("accept depth").Add(op.accept_depth);
 }
 
@@ -190,6 +197,9 @@ void AddPost(const Job& job, Canonical& out) {
   if (job.program_number != 1) out.Add(std::int64_t{job.program_number});
   if (job.control_deviation) out.Add(*job.control_deviation);
   if (!job.arcs) out.Add("straight moves only");
+  if (job.restart_points) out.Add("restart points");
+  if (job.line_number_step.value_or(job.dialect.line_number_step) != job.dialect.line_number_step)
+    out.Add("line numbers").Add(std::int64_t{*job.line_number_step});
 }
 
 }  // namespace
@@ -222,6 +232,11 @@ std::string JobDigest(const Job& job, std::string_view model_digest, std::string
   AddOptional(tool.flute_length, out);
   AddOptional(tool.shank_diameter, out);
   AddOptional(tool.stickout, out);
+  if (!tool.holder.empty()) {
+    out.Add("holder").Add(tool.holder_clearance);
+    for (const HolderSegment& segment : tool.holder)
+      out.Add(segment.length).Add(segment.lower_diameter).Add(segment.upper_diameter);
+  }
   out.Add(tool.spindle_rpm).Add(tool.feed).Add(tool.plunge_feed).Add(static_cast<std::int64_t>(tool.coolant));
   out.Add(op.scallop).Add(op.tolerance).Add(op.leave).Add(op.steep_angle);
   out.Add(static_cast<std::int64_t>(op.strategy)).Add(op.zigzag_angle).Add(op.zigzag_bend);
@@ -231,6 +246,7 @@ std::string JobDigest(const Job& job, std::string_view model_digest, std::string
   AddOptional(op.floor_z, out);
   out.Add(op.approach_gap).Add(job.dialect.name).Add(job.work_offset);
   AddPost(job, out);
+  if (job.default_tool_number) out.Add("tool number assumed");
   out.Add(std::int64_t{job.default_cutting_data}).Add(std::int64_t{job.unitless_file});
   AddLimits(job, out);
   return out.Digest();

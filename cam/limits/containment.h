@@ -32,6 +32,9 @@ struct Obstacle {
   Outline outline;
   double top_z = 0.0;   // mm
   double margin = 0.0;  // mm, beside it and above it
+  // It limits a cylinder of the holder: it is as much wider and lower as that is wider than the tool below
+  // and begins higher.
+  bool of_holder = false;
 };
 
 // An area beside the part. Over it the tool's axis keeps the tip at or above a height

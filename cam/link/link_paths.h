@@ -8,6 +8,7 @@
 #include <absl/status/statusor.h>
 
 #include "cam/limits/stock_solid.h"
+#include "cam/limits/upper_cylinders.h"
 #include "cam/link/lead_shapes.h"
 #include "cam/location/limits/operation_limits.h"
 #include "cam/location/locator.h"
@@ -30,13 +31,15 @@ struct LinkParams {
   // If true, the stock is known: rapids between passes run as low as they are proven clear of it, and links
   // at feed close to it may take their place. Else rapids run at the clearance plane.
   bool low_rapids = false;
-  double tool_radius = 0.0;   // mm, larger radius of ball and shank; for low rapids only
-  double shank_lower = 0.0;   // mm, how far below the ball's centre a wide shank begins, including the stock
-                              // to leave; mostly 0. For low rapids only
-  double approach_gap = 1.0;  // mm; clear of the stock means allowance + gap from the surface
-  double feed = 0.0, plunge_feed = 0.0;        // mm/min
+  double tool_radius = 0.0;  // mm, larger radius of ball and shank; for low rapids only
+  double shank_lower = 0.0;  // mm, how far below the ball's centre a wide shank begins, including the stock
+                             // to leave; mostly 0. For low rapids only
+  std::vector<UpperCylinder> holder = {};  // its cylinders, from the lowest on; for low rapids only
+  double approach_gap = 1.0;               // mm; clear of the stock means allowance + gap from the surface
+  double feed = 0.0, plunge_feed = 0.0;    // mm/min
   std::optional<double> link_feed, lead_feed;  // mm/min; default `feed`
   double plunge_angle = kDefaultPlungeAngle;   // steeper descents run at plunge feed
+  bool keep_feed = false;                      // passes run at `feed` there, too
   CutDirection contour_direction = CutDirection::kClimb;
   LeadParams lead;
   double retract_time = 4.0;     // s that a retract costs beside its moves: it marks the surface, axes stop

@@ -56,7 +56,7 @@ Move MoveCheck::Feed(MoveKind kind, const Vec3& from, const Vec3& to) const {
   move.feed = params_.feed;
   if (kind == MoveKind::kLink) move.feed = params_.link_feed.value_or(params_.feed);
   if (kind == MoveKind::kLead) move.feed = params_.lead_feed.value_or(params_.feed);
-  if (steep_descent) move.feed = params_.plunge_feed;
+  if (steep_descent && !(kind == MoveKind::kCut && params_.keep_feed)) move.feed = params_.plunge_feed;
   return move;
 }
 
@@ -115,6 +115,17 @@ double MoveCheck::ClearOfStock(const Vec3& place) const {
   return std::min(clear, clearance_center_z());
 }
 
+double MoveCheck::ClearOfStockBelow(const UpperCylinder& cylinder, const Vec2& a, const Vec2& b) const {
+  // Over everything within the cylinder's radius the ball is at least as high as that.
+  const double wider = cylinder.radius - params_.radius;
+  double lower_end =
+      std::min(stock_locator_.MaxHeight(a, b, wider, kFineRapid), params_.stock_top_z + params_.approach_gap);
+  const double room = cylinder.radius + params_.approach_gap;
+  if (params_.stock != nullptr && params_.stock->RectangleComesNearer(a, b, room + params_.stock->accuracy()))
+    lower_end = std::max(lower_end, params_.stock->top_z() + params_.approach_gap);
+  return lower_end - cylinder.rise;
+}
+
 double MoveCheck::LowRapidHeight(const Vec3& a, const Vec3& b) const {
   // A wider shank counts as a wider ball if it begins no lower than the ball's centre; params_.shank_lower
   // makes up for a shank that does.
@@ -124,6 +135,8 @@ double MoveCheck::LowRapidHeight(const Vec3& a, const Vec3& b) const {
   double clear = std::min(highest + params_.shank_lower, above_all);
   if (params_.stock != nullptr && params_.stock->RectangleComesNearer(Xy(a), Xy(b), StockRoom()))
     clear = std::max(clear, AboveStockSolid());
+  for (const UpperCylinder& cylinder : params_.holder)
+    clear = std::max(clear, ClearOfStockBelow(cylinder, Xy(a), Xy(b)));
   if (params_.operation_limits != nullptr)
     clear = std::max(clear, params_.operation_limits->ClearHeight(Xy(a), Xy(b)));
   return std::min(std::max({clear, a.z(), b.z()}), clearance_center_z());

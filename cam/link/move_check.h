@@ -39,6 +39,9 @@ class MoveCheck {
   double LowRapidHeight(const Vec3& a, const Vec3& b) const;
 
  private:
+  // The lowest centre (mm) from which on this cylinder of the holder is clear of the stock over the
+  // rectangle.
+  double ClearOfStockBelow(const UpperCylinder& cylinder, const Vec2& a, const Vec2& b) const;
   double StockRoom() const;        // mm, in plan: from there on the tool is clear of params().stock
   double AboveStockSolid() const;  // mm, centre height
   // True if the ball is clear of the stock, or if the surface near it is to be finished and the tip is not

@@ -57,6 +57,7 @@ class Legend {
   void More(std::size_t count) {
     if (count > kMaxRows) Text(fmt::format("and {} more", count - kMaxRows));
   }
+  void Note(const std::string& text) { Text(text); }
   void Gap() { at_.y() += 8; }
 
  private:
@@ -88,6 +89,7 @@ void AddMoves(const PreviewInput& input, Legend& legend) {
     const MoveStyle& style = kMoveStyles[line];
     if (used[line]) legend.Line(style.color, style.dash, style.name);
   }
+  if (!input.section_passes.empty()) legend.Note("1, 2, ...: where sections start; arrows: direction");
 }
 
 void AddScales(const PaintScales& scales, Legend& legend) {

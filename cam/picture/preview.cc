@@ -10,6 +10,7 @@
 #include "cam/picture/label_places.h"
 #include "cam/picture/legend.h"
 #include "cam/picture/move_lines.h"
+#include "cam/picture/pass_order.h"
 #include "cam/picture/seen_lines.h"
 #include "cam/picture/svg_writer.h"
 #include "cam/picture/view.h"
@@ -176,6 +177,7 @@ std::string DrawPreview(const PreviewInput& input, std::size_t max_bytes) {
       for (const MoveLine line : {kRapid, kLink, kZigzag, kContour, kBorder, kCrease, kRest}) {
         DrawMoves(input, panels[k].view, line, apart, svg);
       }
+      DrawPassOrder(input, panels[k].view, svg);
     }
   }
   for (std::size_t k = 0; k < 2; ++k) {

@@ -1,5 +1,6 @@
 // Draws the part from above and isometric as SVG: regions, their borders by kind, nodes, unreachable areas,
-// passes by kind, links, open edges, scale and legend. On request it adds views of slope and curvature.
+// passes by kind, their order and direction, links, open edges, scale and legend. On request it adds views of
+// slope and curvature.
 #pragma once
 
 #include <functional>
@@ -33,6 +34,7 @@ struct PreviewInput {
   const Surface* surface = nullptr;      // required
   const Toolpath* toolpath = nullptr;    // optional
   std::vector<PassKind> pass_kinds;      // index: Move::pass
+  std::vector<int> section_passes;       // first pass of each section of the program, rising
   std::string region_title = "regions";  // what the legend calls them
   std::vector<PreviewRegion> regions;
   // The region of a surface point (index into `regions`, or -1). If empty, the surface is only shaded.

@@ -25,7 +25,8 @@ absl::StatusOr<PatchNetwork> BuildPlacedNetwork(PatchModel model, const Setup& s
 absl::StatusOr<Surface> BuildPlacedSurface(PatchModel model, const Setup& setup, const RunContext& run) {
   PM_ASSIGN_OR_RETURN(PatchNetwork network, BuildPlacedNetwork(std::move(model), setup, run));
   PM_RETURN_IF_ERROR(run.Check());
-  return BuildSurface(std::move(network), SurfaceParams{}, run);
+  PM_ASSIGN_OR_RETURN(Surface surface, BuildSurface(std::move(network), SurfaceParams{}, run));
+  return WithWallSides(std::move(surface), setup.wall_sides, run);
 }
 
 Diagnostics WallsWithoutSide(const Surface& surface) {
@@ -39,7 +40,7 @@ Diagnostics WallsWithoutSide(const Surface& surface) {
     found.push_back(MakeWarning(
         "WALL_WITHOUT_SIDE",
         fmt::format("the {} stands upright, and nothing that it is joined to says which of its sides is air: "
-                    "both are milled",
+                    "both are milled; --wall-side picks one",
                     face ? "face" : "patch"),
         WhereOf(model, id)));
   }

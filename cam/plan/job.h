@@ -9,6 +9,7 @@
 #include "cam/limits/containment.h"
 #include "cam/link/link_paths.h"
 #include "cam/path/parallel/line_frame.h"
+#include "cam/plan/wall_sides.h"
 #include "cam/post/program_writer.h"
 #include "cam/region/map/region_map.h"
 #include "cam/tool/tool.h"
@@ -50,6 +51,7 @@ struct Setup {
   enum class Zero { kPoint, kTopCenter, kBottomCorner };
   Zero zero = Zero::kPoint;
   Vec3 zero_point = Vec3::Zero();     // for kPoint, placed frame; default the model's own origin
+  bool zero_stated = true;            // false: the client has not said where the zero is
   std::optional<double> stock_top_z;  // PROGRAM frame, default model top + allowance
   double allowance = 0.5;
   // True if the client has stated the allowance. A body of the stock has then been cut down to it over the
@@ -60,7 +62,8 @@ struct Setup {
   // ChooseUp (cam/plan/choose_up.h) turns the placement once the model is known: the axis that shows most
   // points up, or the outer normal of a plane face. At most one is set.
   bool up_auto = false;
-  std::string up_face = {};  // id
+  std::string up_face = {};               // id
+  std::vector<WallSide> wall_sides = {};  // of walls that nothing else decides
   std::optional<Machine> machine = std::nullopt;
 };
 
@@ -132,6 +135,7 @@ struct RegionOverride {
 };
 inline constexpr double kPickReach = 1.0;  // mm
 inline constexpr double kMinLeadSweepDeg = 10.0, kMaxLeadSweepDeg = 90.0;
+inline constexpr double kDefaultMaxUnreached = 0.5;
 inline constexpr double kMinPlungeAngleDeg = 1.0;  // the most is kDefaultPlungeAngle
 inline constexpr double kMaxZigzagBendDeg = 30.0;  // of Operation::zigzag_bend
 
@@ -164,8 +168,10 @@ struct Operation {
   std::optional<double> lead_radius;  // mm; default half the ball radius
   double lead_sweep = 0.5 * kPi;      // rad
   double plunge_angle = kDefaultPlungeAngle;
-  std::optional<double> link_feed, lead_feed;  // mm/min; default that of the tool
-  double accept_depth = 0.0;                   // mm; deeper cuts than it and the allowance end the job
+  bool keep_feed = false;                       // of passes, on steep descents too; the stock must be stated
+  std::optional<double> link_feed, lead_feed;   // mm/min; default that of the tool
+  double accept_depth = 0.0;                    // mm; deeper cuts than it and the allowance end the job
+  double max_unreached = kDefaultMaxUnreached;  // share of what looks up, [0, 1]: UnreachedShare
   Selection selection;
   std::string regions_sha256;  // what `overrides` were made for; empty: not checked
   std::vector<RegionOverride> overrides;
@@ -180,15 +186,25 @@ struct Job {
   // mm: by how much the control leaves the path, where the dialect has no word that says so. Unset: exact
   // stop.
   std::optional<double> control_deviation;
-  bool arcs = true;                   // the program has arcs where the dialect has them
-  std::vector<std::string> header;    // extra comment lines (request hash, version, model name)
-  bool default_cutting_data = false;  // the client used defaults: warn ([machining M5])
-  bool unitless_file = false;         // warn when the extent looks wrong ([machining M14])
-  PathLimits path_limits;             // what passes may come to; the service has its own (server/limits.h)
-  Diagnostics model_remarks;          // warnings from its reading, points as placed: they go into the report
+  bool arcs = true;                          // the program has arcs where the dialect has them
+  bool restart_points = false;               // the program may be started again at them (ProgramSection)
+  std::optional<int> line_number_step = {};  // default that of the dialect
+  std::vector<std::string> header;           // extra comment lines (request hash, version, model name)
+  bool default_cutting_data = false;         // the client used defaults: warn ([machining M5])
+  bool default_tool_number = false;          // the same for the number of the tool
+  bool unitless_file = false;                // warn when the extent looks wrong ([machining M14])
+  PathLimits path_limits;     // what passes may come to; the service has its own (server/limits.h)
+  Diagnostics model_remarks;  // warnings from its reading, points as placed: they go into the report
 };
 
-enum class Outcome { kComplete, kCompleteWhereReachable, kNothingToCut, kVerificationFailed, kNeedsRoughing };
+enum class Outcome {
+  kComplete,
+  kCompleteWhereReachable,
+  kNothingToCut,
+  kVerificationFailed,
+  kNeedsRoughing,
+  kTooMuchUnreached
+};
 
 struct StageTime {
   std::string name;

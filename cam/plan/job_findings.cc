@@ -1,6 +1,9 @@
 #include "cam/plan/job_findings.h"
 
+#include <algorithm>
+#include <iterator>
 #include <string>
+#include <string_view>
 #include <variant>
 
 #include <fmt/format.h>
@@ -14,6 +17,40 @@ const char* NameOf(const decltype(Setup::stock_body)& body) {
   if (std::holds_alternative<BlockStock>(body)) return "block";
   if (std::holds_alternative<CylinderStock>(body)) return "cylinder";
   return "prism";
+}
+
+struct MissedArea {
+  UnreachableReason reason = UnreachableReason::kNone;
+  double area = 0.0;  // mm2
+};
+
+// The areas of UnreachedShare.
+std::vector<MissedArea> MissedAreas(const VerifyReport& report, const Operation& op) {
+  const EnumArray<UncutReason, double>& area = report.unreachable_plan_area;
+  std::vector<MissedArea> missed = {{UnreachableReason::kConcave, area[UncutReason::kConcave]},
+                                    {UnreachableReason::kShank, area[UncutReason::kShank]},
+                                    {UnreachableReason::kHolder, area[UncutReason::kHolder]}};
+  if (!op.floor_z) missed.push_back({UnreachableReason::kFloor, area[UncutReason::kFloor]});
+  return missed;
+}
+
+std::string CureOf(UnreachableReason reason) {
+  switch (reason) {
+    case UnreachableReason::kConcave:
+      return "a smaller ball";
+    case UnreachableReason::kShank:
+      return "a longer flute (--flute-length)";
+    case UnreachableReason::kHolder:
+      return "a longer stick-out (--stickout)";
+    default:
+      return "a lower --floor";
+  }
+}
+
+double SumOf(const std::vector<MissedArea>& missed) {
+  double sum = 0.0;
+  for (const MissedArea& part : missed) sum += part.area;
+  return sum;
 }
 
 // The tip of a ball whose centre is there, placed frame.
@@ -33,6 +70,12 @@ Diagnostics Assumptions(const Job& job, const Resolved& r) {
     stock = fmt::format("a whole {}, from which nothing has been cut", NameOf(job.setup.stock_body));
   }
   stock += fmt::format(", nothing above Z{:.4f}", r.stock_top_z - zero_z);
+  const Tool& tool = job.operation.tool;
+  if (job.default_tool_number)
+    list.push_back(
+        MakeWarning("TOOL_NUMBER_ASSUMED", fmt::format("no tool number is given: T{}", tool.number)));
+  if (!job.setup.zero_stated)
+    list.push_back(MakeWarning("ZERO_ASSUMED", "no zero is given: X0 Y0 Z0 is the model's own origin"));
   list.push_back(StockIsStated(job.setup) ? MakeWarning("STOCK_STATED", stock)
                                           : MakeWarning("STOCK_ASSUMED", "assumed: " + stock));
   if (r.stock != nullptr && job.operation.accept_depth > job.setup.allowance) {
@@ -46,7 +89,10 @@ Diagnostics Assumptions(const Job& job, const Resolved& r) {
                     "rapids between passes go below the clearance plane, clear of that material however "
                     "the control drives its axes"));
   }
-  list.push_back(MakeWarning("HOLDER_NOT_CHECKED", "the holder is not checked; see required_stickout_mm"));
+  if (job.operation.tool.holder.empty()) {
+    list.push_back(MakeWarning("HOLDER_NOT_CHECKED",
+                               "no holder is given, so none is checked; see required_stickout_mm"));
+  }
   if (job.default_cutting_data) {
     list.push_back(MakeWarning(
         "DEFAULT_CUTTING_DATA",
@@ -74,9 +120,15 @@ Diagnostics Assumptions(const Job& job, const Resolved& r) {
   return list;
 }
 
+bool IsToCheckBeforeStart(std::string_view code) {
+  constexpr std::string_view kCodes[] = {"TOOL_NUMBER_ASSUMED", "DEFAULT_CUTTING_DATA", "ZERO_ASSUMED",
+                                         "STOCK_ASSUMED", "HOLDER_NOT_CHECKED"};
+  return std::find(std::begin(kCodes), std::end(kCodes), code) != std::end(kCodes);
+}
+
 Diagnostic NothingToCut(const JobReport& report, const Resolved& resolved, bool limited, double reached) {
   double all = 0.0, off = 0.0, on = 0.0, outside = 0.0;
-  double avoided = 0.0, shank = 0.0, strategy = 0.0;
+  double avoided = 0.0, shank = 0.0, holder = 0.0, strategy = 0.0;
   for (const Region& region : report.regions) {
     const auto id = region.id.index();
     const double wanted = report.figures[id].selected_share * region.area;
@@ -85,6 +137,7 @@ Diagnostic NothingToCut(const JobReport& report, const Resolved& resolved, bool 
     if (region.reason == UnreachableReason::kOutside) outside += wanted;
     if (region.reason == UnreachableReason::kAvoided) avoided += wanted;
     if (region.reason == UnreachableReason::kShank) shank += wanted;
+    if (region.reason == UnreachableReason::kHolder) holder += wanted;
     if (region.reason == UnreachableReason::kStrategy) strategy += wanted;
   }
   const Vec3 size = resolved.box.max - resolved.box.min;
@@ -106,12 +159,14 @@ Diagnostic NothingToCut(const JobReport& report, const Resolved& resolved, bool 
   tell(outside, Name(UnreachableReason::kOutside));
   tell(avoided, Name(UnreachableReason::kAvoided));
   tell(shank, Name(UnreachableReason::kShank));
+  tell(holder, Name(UnreachableReason::kHolder));
   tell(strategy, Name(UnreachableReason::kStrategy));
   if (!shares.empty()) shares += ")";
   std::string look = limited ? scale + ", then " + limits : scale;
   if (avoided >= 0.5 * all) look = limits + ", then " + scale;
   if (outside > 0.5 * all) look = "--outside, or the walls' names in --only, then " + scale;
   if (shank > 0.5 * all) look = "the length of flutes and the shank, then " + scale;
+  if (holder > 0.5 * all) look = "--stickout and the holder, then " + scale;
   if (strategy > 0.5 * all) look = "the forced strategy, then " + scale;
   const char* of = limited ? "that is wanted" : "of the model";
   const std::string what =
@@ -140,6 +195,31 @@ Diagnostic NeedsRoughing(const DeepCuts& deep, const Job& job, const Resolved& r
       {});
   d.where.point = TipAt(deep.center, resolved);
   return d;
+}
+
+double UnreachedShare(const VerifyReport& report, const Operation& op) {
+  const double missed = SumOf(MissedAreas(report, op));
+  return missed > 0.0 ? missed / (missed + report.reachable_plan_area) : 0.0;
+}
+
+Diagnostic TooMuchUnreached(const VerifyReport& report, const Operation& op, double share) {
+  std::vector<MissedArea> missed = MissedAreas(report, op);
+  std::stable_sort(missed.begin(), missed.end(),
+                   [](const MissedArea& a, const MissedArea& b) { return a.area > b.area; });
+  std::string reasons, cures;
+  for (const auto& [reason, area] : missed) {
+    if (!(area > 0.0)) continue;
+    reasons += fmt::format("{}{} {:.0f} %", reasons.empty() ? "" : ", ", Name(reason),
+                           100.0 * share * area / SumOf(missed));
+    cures += CureOf(reason) + ", ";
+  }
+  return MakeError(
+      "TOO_MUCH_UNREACHED",
+      fmt::format(
+          "the tool does not fit into {:.1f} % of what looks up, as seen from above ({}), and at most "
+          "{:.6g} % may stay uncut: take {}or raise --max-unreached",
+          100.0 * share, reasons, 100.0 * op.max_unreached, cures),
+      {});
 }
 
 Diagnostics SteepLeads(const std::vector<LeadFigure>& leads, const Resolved& resolved) {

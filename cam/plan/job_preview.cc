@@ -7,13 +7,14 @@
 #include <fmt/format.h>
 
 #include "cam/picture/preview.h"
+#include "cam/plan/program_sections.h"
 
 namespace patchmill {
 namespace {
 
 // Mountain red, basin blue, neutral green; steep stronger than gentle; out of reach grey, violet where the
-// ball is too large, brown below the floor, teal under a wide shank; what forced passes leave yellow;
-// neighbours of one class differ a little in lightness.
+// ball is too large, brown below the floor, teal under a wide shank, steel blue under the holder; what
+// forced passes leave yellow; neighbours of one class differ a little in lightness.
 std::string Color(const Region& region, int nth) {
   int rgb[3];
   const bool steep = region.slope == SlopeClass::kSteep;
@@ -36,6 +37,7 @@ std::string Color(const Region& region, int nth) {
       region.reason == UnreachableReason::kConcave   ? set(150, 120, 165)
       : region.reason == UnreachableReason::kFloor   ? set(165, 150, 105)
       : region.reason == UnreachableReason::kShank   ? set(95, 145, 140)
+      : region.reason == UnreachableReason::kHolder  ? set(70, 110, 150)
       : region.reason == UnreachableReason::kOutside ? set(175, 175, 180)
                                                      : set(120, 120, 120);
       break;
@@ -183,6 +185,8 @@ const char* Name(Outcome outcome) {
       return "VERIFICATION_FAILED";
     case Outcome::kNeedsRoughing:
       return "NEEDS_ROUGHING";
+    case Outcome::kTooMuchUnreached:
+      return "TOO_MUCH_UNREACHED";
   }
   return "";
 }
@@ -202,6 +206,10 @@ std::string DrawJob(const Surface& surface, const JobResult& result, const Resol
   input.toolpath = &result.posted;
   input.program_zero = result.program_zero;
   for (const CutterPath& pass : result.motion.passes) input.pass_kinds.push_back(pass.kind);
+  for (const ProgramSection& section :
+       SectionsOf(result.posted, result.motion, result.regions, result.program_zero)) {
+    if (!section.continued) input.section_passes.push_back(section.first_pass);
+  }
   const VerifyReport& v = result.report.verify;
   double unreachable = 0.0;
   for (const double area : v.unreachable_area) unreachable += area;

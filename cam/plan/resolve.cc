@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "cam/limits/reach_tolerance.h"
+#include "cam/limits/upper_cylinders.h"
 #include "cam/plan/beside_part.h"
 #include "cam/plan/patch_selection.h"
 #include "core/base/error_details.h"
@@ -54,6 +55,21 @@ Outline Shifted(const std::vector<Ring>& rings, const Vec3& by) {
   return Outline(moved);
 }
 
+// Adds the obstacle as it limits ball and shank, and for each cylinder of the holder as an obstacle that is
+// as much wider and lower as the cylinder is wider and begins higher.
+void AddObstacle(const Obstacle& obstacle, const Tool& tool, std::vector<Obstacle>& obstacles) {
+  obstacles.push_back(obstacle);
+  for (const UpperCylinder& cylinder : UpperCylindersOf(tool)) {
+    if (cylinder.part != UpperPart::kHolder) continue;
+    Obstacle lower = obstacle;
+    const double wider = cylinder.radius - WidestRadius(tool);
+    lower.of_holder = true;
+    lower.margin += wider;
+    lower.top_z -= wider + cylinder.rise + BallRadius(tool);
+    obstacles.push_back(std::move(lower));
+  }
+}
+
 absl::StatusOr<Containment> ResolveContainment(const Surface& surface, const Job& job, const Vec3& zero,
                                                const RunContext& run) {
   const Selection& selection = job.operation.selection;
@@ -69,7 +85,8 @@ absl::StatusOr<Containment> ResolveContainment(const Surface& surface, const Job
   }
   if (job.operation.top_z) c.top_z = *job.operation.top_z + zero.z();
   for (const ObstacleOutline& o : job.setup.obstacles) {
-    c.obstacles.push_back({o.id, Shifted({o.outline}, zero), o.top_z + zero.z(), o.margin});
+    AddObstacle({o.id, Shifted({o.outline}, zero), o.top_z + zero.z(), o.margin}, job.operation.tool,
+                c.obstacles);
   }
   PM_ASSIGN_OR_RETURN(c.beside, FindBesideStrips(surface,
                                                  {.radius = BallRadius(job.operation.tool),
@@ -202,6 +219,7 @@ VerifyParams MakeVerifyParams(const Job& job, const Resolved& resolved, const st
   p.stock = resolved.stock;
   p.machine = job.setup.machine;
   p.depth_limit = resolved.depth_limit;
+  p.keep_feed = job.operation.keep_feed;
   p.containment = resolved.containment;
   return p;
 }

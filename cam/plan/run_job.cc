@@ -11,7 +11,7 @@
 #include <fmt/format.h>
 
 #include "cam/limits/reach_tolerance.h"
-#include "cam/limits/wide_shank.h"
+#include "cam/limits/upper_cylinders.h"
 #include "cam/link/leads.h"
 #include "cam/location/limits/operation_limits.h"
 #include "cam/path/chord/scan_line.h"
@@ -22,6 +22,7 @@
 #include "cam/plan/job_findings.h"
 #include "cam/plan/plan.h"
 #include "cam/plan/plan_passes.h"
+#include "cam/plan/program_sections.h"
 #include "cam/plan/quickest_angles.h"
 #include "cam/plan/region_choices.h"
 #include "cam/plan/region_steps.h"
@@ -65,7 +66,7 @@ absl::StatusOr<OperationLimits> MakeOperationLimits(const Surface& surface, cons
   p.ball_radius = resolved.radius;
   p.tool_radius = WidestRadius(job.operation.tool);
   p.leave = job.operation.leave;
-  p.shank = WideShankOf(job.operation.tool);
+  p.uppers = UpperCylindersOf(job.operation.tool);
   p.tolerance = job.operation.tolerance;
   return OperationLimits::Make(surface, resolved.containment, p, run);
 }
@@ -109,8 +110,12 @@ LinkParams MakeLinkParams(const Job& job, const Resolved& resolved, const Operat
   p.stock = resolved.stock.get();
   p.depth_limit = resolved.depth_limit;
   p.tool_radius = WidestRadius(job.operation.tool);
-  if (const auto shank = WideShankOf(job.operation.tool)) {
-    p.shank_lower = std::max(0.0, job.operation.leave - shank->rise);
+  for (const UpperCylinder& cylinder : UpperCylindersOf(job.operation.tool)) {
+    if (cylinder.part == UpperPart::kShank) {
+      p.shank_lower = std::max(0.0, job.operation.leave - cylinder.rise);
+    } else {
+      p.holder.push_back(cylinder);
+    }
   }
   p.feed = job.operation.tool.feed;
   p.plunge_feed = job.operation.tool.plunge_feed;
@@ -119,6 +124,7 @@ LinkParams MakeLinkParams(const Job& job, const Resolved& resolved, const Operat
   p.lead.sweep = job.operation.lead_sweep;
   p.plunge_angle = job.operation.plunge_angle;
   p.link_feed = job.operation.link_feed;
+  p.keep_feed = job.operation.keep_feed;
   p.lead_feed = job.operation.lead_feed;
   p.pass = MakePassParams(job, resolved);
   // No arcs are fitted to links, so they may use the share of arcs, too.
@@ -135,7 +141,17 @@ std::vector<std::string> Header(const Job& job, const Resolved& r, const Diagnos
       "leave {:.4g}",
       job.operation.tolerance, r.budget.chord, r.budget.arc, r.budget.rounding, r.budget.certificate,
       r.budget.controller, job.operation.scallop, job.operation.leave));
-  for (const Diagnostic& d : assumptions) lines.push_back(fmt::format("{}: {}", d.code, d.message));
+  const auto add = [&](bool to_check) {
+    for (const Diagnostic& d : assumptions) {
+      if (IsToCheckBeforeStart(d.code) == to_check) lines.push_back(fmt::format("{}: {}", d.code, d.message));
+    }
+  };
+  add(false);
+  if (std::any_of(assumptions.begin(), assumptions.end(),
+                  [](const Diagnostic& d) { return IsToCheckBeforeStart(d.code); })) {
+    lines.push_back("ASSUMED: check before start");
+    add(true);
+  }
   return lines;
 }
 
@@ -387,6 +403,7 @@ absl::StatusOr<JobResult> PlanAndJudge(const Surface& surface, const Job& job, c
 
   PostParams post;
   post.dialect = job.dialect;
+  if (job.line_number_step) post.dialect.line_number_step = *job.line_number_step;
   post.program_number = job.program_number;
   post.work_offset = job.work_offset;
   post.program_zero = resolved.program_zero;
@@ -397,6 +414,15 @@ absl::StatusOr<JobResult> PlanAndJudge(const Surface& surface, const Job& job, c
   Diagnostics head = assumptions;
   head.insert(head.end(), beside.begin(), beside.end());
   post.header = Header(job, resolved, head);
+  post.restart_points = job.restart_points;
+  post.sections = SectionsOf(result.posted, result.motion, result.regions, resolved.program_zero);
+  if (job.restart_points && std::none_of(post.sections.begin(), post.sections.end(),
+                                         [](const ProgramSection& section) { return section.restart; })) {
+    report.diagnostics.push_back(MakeWarning(
+        "NO_RESTART_POINTS",
+        "the tool is nowhere retracted before a section, so the program has no restart points; it "
+        "is with rapids at the clearance plane (--high-rapids)"));
+  }
   const VerifyParams verify = MakeVerifyParams(job, resolved, parts.parts);
   // As many moves as were written: CheckMotion has bounded them.
   const std::size_t most_moves = std::max(ReaderParams().max_moves, 20 * result.motion.toolpath.moves.size());
@@ -404,6 +430,7 @@ absl::StatusOr<JobResult> PlanAndJudge(const Surface& surface, const Job& job, c
                       PostAndVerify(context, result.posted, post, verify, most_moves));
   clock.Done("verify");
   if (!program.report.ok() && HasArcs(result.posted)) {
+    post.sections = SectionsOf(result.motion.toolpath, result.motion, result.regions, resolved.program_zero);
     PM_ASSIGN_OR_RETURN(VerifiedProgram straight,
                         PostAndVerify(context, result.motion.toolpath, post, verify, most_moves));
     clock.Done("verify without arcs");
@@ -419,7 +446,7 @@ absl::StatusOr<JobResult> PlanAndJudge(const Surface& surface, const Job& job, c
   report.verify = std::move(program.report);
   if (report.verify.NothingToFinish()) return nothing(report.verify.reachable_area);
   const std::optional<double>& stickout = job.operation.tool.stickout;
-  if (stickout && *stickout < report.verify.required_stickout) {
+  if (stickout && job.operation.tool.holder.empty() && *stickout < report.verify.required_stickout) {
     report.diagnostics.push_back(MakeWarning(
         "STICKOUT_TOO_SHORT",
         fmt::format(
@@ -430,6 +457,12 @@ absl::StatusOr<JobResult> PlanAndJudge(const Surface& surface, const Job& job, c
                             report.verify.findings.end());
   if (!report.verify.ok()) {
     report.outcome = Outcome::kVerificationFailed;
+    return result;
+  }
+  const double unreached = UnreachedShare(report.verify, job.operation);
+  if (unreached > job.operation.max_unreached) {
+    report.outcome = Outcome::kTooMuchUnreached;
+    report.diagnostics.push_back(TooMuchUnreached(report.verify, job.operation, unreached));
     return result;
   }
   double unreachable = 0.0;

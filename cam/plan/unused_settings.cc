@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "cam/limits/wide_shank.h"
+#include "cam/limits/upper_cylinders.h"
 
 namespace patchmill {
 namespace {
@@ -32,7 +32,8 @@ Diagnostics UnusedSettings(const Operation& op) {
              return change.skip || strategy_of(change) == strategy;
            });
   };
-  if (op.tool.flute_length && !WideShankOf(op.tool))
+  const std::vector<UpperCylinder> uppers = UpperCylindersOf(op.tool);
+  if (op.tool.flute_length && (uppers.empty() || uppers.front().part != UpperPart::kShank))
     idle.push_back(
         Unused("tool.flute_length_mm", "a length of flutes", "the shank is no wider than the ball"));
   if (all(Strategy::kContour)) {

@@ -146,6 +146,33 @@ absl::Status ValidateJob(const Job& job) {
   }
   if (tool.stickout)
     PM_RETURN_IF_ERROR(check("tool.stickout_mm", *tool.stickout, *tool.stickout > 0, "above 0"));
+  if (op.keep_feed && !StockIsStated(job.setup)) {
+    return FieldError(
+        "feeds.keep_on_passes",
+        "= true; needs the stock to be stated (setup.stock.allowance_mm, or a body of the stock)");
+  }
+  if (op.keep_feed && op.accept_depth > job.setup.allowance) {
+    return FieldError(
+        "feeds.keep_on_passes",
+        fmt::format("= true; must be false where accept_depth_mm = {:.6g} is more than the allowance, "
+                    "{:.6g}: descents may then cut deep",
+                    op.accept_depth, job.setup.allowance));
+  }
+  if (!tool.holder.empty() && !tool.stickout)
+    return FieldError("tool.stickout_mm", "is missing; required with a holder: it says where that begins");
+  for (const HolderSegment& segment : tool.holder) {
+    if (!(segment.length > 0.0 && segment.lower_diameter > 0.0 && segment.upper_diameter > 0.0))
+      return FieldError("tool.holder", "must have lengths and diameters above 0");
+  }
+  PM_RETURN_IF_ERROR(check("tool.holder_clearance_mm", tool.holder_clearance,
+                           tool.holder_clearance >= 0.0 && tool.holder_clearance <= 100.0, "in [0, 100]"));
+  if (!tool.holder.empty() && tool.holder_clearance < job.setup.allowance) {
+    return FieldError(
+        "tool.holder_clearance_mm",
+        fmt::format("= {:.6g}; must be at least setup.stock.allowance_mm = {:.6g}: so much may stand "
+                    "on the surface",
+                    tool.holder_clearance, job.setup.allowance));
+  }
   PM_RETURN_IF_ERROR(check("scallop_mm", op.scallop, op.scallop > 0 && op.scallop < r,
                            fmt::format("in (0, ball radius = {:.6g})", r)));
   PM_RETURN_IF_ERROR(check("tolerance_mm", op.tolerance,

@@ -78,9 +78,14 @@ struct Dialect {
   std::map<std::string, DialectWord> words;  // by their spelling: "G187"
   // Lines with placeholders {...}. A line whose placeholder stands for nothing is left out.
   std::vector<std::string> begin, end;
+  // Written where the control may be started again; the same placeholders, and the lines send the tool up and
+  // over {x} {y}, to {z}. Empty: the dialect has no restart points.
+  std::vector<std::string> restart;
 
   std::string text;  // of the post file
 };
+
+inline constexpr int kMaxLineNumberStep = 1000;
 
 // Reads a post file. INVALID_ARGUMENT for the first fault, with its line: "line 12: ...". Cost O(text).
 absl::StatusOr<Dialect> ParseDialect(std::string_view text);

@@ -141,7 +141,7 @@ const std::map<std::string, Reader, std::less<>>& Keys() {
       {"control.d0_is_no_offset",
        [](View v, Dialect& d) { return ReadChoice(v, "no", "yes", d.d0_is_no_offset); }},
       {"control.line_numbers",
-       [](View v, Dialect& d) { return ReadInteger(v, 0, 1000, d.line_number_step); }},
+       [](View v, Dialect& d) { return ReadInteger(v, 0, kMaxLineNumberStep, d.line_number_step); }},
       {"control.machine_top", [](View v, Dialect& d) { return ReadNumber(v, -50.0, 0.0, d.machine_top); }},
       {"control.line_end",
        [](View v, Dialect& d) {
@@ -229,7 +229,7 @@ class PostFileReader {
     if (text.size() > kLongestLine) return Bad(fmt::format("longer than {} characters", kLongestLine));
     if (text.front() == '[') return Section(text);
     if (section_.empty()) return Bad("text before the first section, [control]");
-    if (section_ == "begin" || section_ == "end") return Template(text);
+    if (section_ == "begin" || section_ == "restart" || section_ == "end") return Template(text);
     const std::size_t equals = text.find('=');
     if (equals == std::string_view::npos) return Bad("must be \"key = value\"");
     const std::string_view key = Trimmed(text.substr(0, equals)), value = Trimmed(text.substr(equals + 1));
@@ -244,12 +244,21 @@ class PostFileReader {
     if (dialect_.begin.empty()) return Bad("[begin] is missing");
     if (dialect_.end.empty()) return Bad("[end] is missing");
     for (const char axis : {'x', 'y', 'z'}) {
-      if (!Begins(fmt::format("{{{}}}", axis)))
-        return Bad(fmt::format("[begin] nowhere sends the tool to {{{}}}", axis));
+      const std::string place = fmt::format("{{{}}}", axis);
+      if (!Has(dialect_.begin, place)) return Bad("[begin] nowhere sends the tool to " + place);
+      if (!dialect_.restart.empty() && !Has(dialect_.restart, place))
+        return Bad("[restart] nowhere sends the tool to " + place);
+    }
+    for (const char* placeholder : {"{work_offset}", "{speed}", "{path}", "{tool}", "{coolant}"}) {
+      if (!dialect_.restart.empty() && Has(dialect_.begin, placeholder) &&
+          !Has(dialect_.restart, placeholder))
+        return Bad(
+            fmt::format("[restart] has no {}, which [begin] has: the control may start there", placeholder));
     }
     if (!dialect_.follows_exactly) {
       if (dialect_.exact_path.empty()) return Bad("[path] exact is missing, and it does not follow exactly");
-      if (!Begins("{path}")) return Bad("[begin] nowhere has {path}, which the accuracy rests on");
+      if (!Has(dialect_.begin, "{path}"))
+        return Bad("[begin] nowhere has {path}, which the accuracy rests on");
     }
     const bool other_planes = dialect_.arcs.planes[ArcPlane::kZx] || dialect_.arcs.planes[ArcPlane::kYz];
     if (dialect_.syntax == Syntax::kKlartext && (other_planes || dialect_.arcs.helices))
@@ -260,27 +269,32 @@ class PostFileReader {
   }
 
  private:
-  bool Begins(std::string_view placeholder) const {
-    for (const std::string& line : dialect_.begin) {
+  static bool Has(const std::vector<std::string>& lines, std::string_view placeholder) {
+    for (const std::string& line : lines) {
       if (line.find(placeholder) != std::string::npos) return true;
     }
     return false;
   }
 
   absl::Status Section(std::string_view text) {
-    for (const char* name : {"control", "path", "arcs", "coolant", "words", "begin", "end"}) {
+    for (const char* name : {"control", "path", "arcs", "coolant", "words", "begin", "restart", "end"}) {
       if (text == fmt::format("[{}]", name)) {
         section_ = name;
         return absl::OkStatus();
       }
     }
-    return Bad(fmt::format("{}: must be [control], [path], [arcs], [coolant], [words], [begin] or [end]",
-                           Quoted(text)));
+    return Bad(
+        fmt::format("{}: must be [control], [path], [arcs], [coolant], [words], [begin], [restart] or [end]",
+                    Quoted(text)));
   }
 
   absl::Status Template(std::string_view text) {
     PM_RETURN_IF_ERROR(CheckTemplate(text));
-    (section_ == "begin" ? dialect_.begin : dialect_.end).emplace_back(text);
+    if (section_ == "restart" && text == kHeaderLine) return Bad("[restart] has no {header}");
+    std::vector<std::string>& lines = section_ == "begin"     ? dialect_.begin
+                                      : section_ == "restart" ? dialect_.restart
+                                                              : dialect_.end;
+    lines.emplace_back(text);
     return absl::OkStatus();
   }
 

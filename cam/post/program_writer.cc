@@ -17,7 +17,8 @@ namespace patchmill {
 namespace {
 
 constexpr double kLargestCoordinate = 1e6;  // mm
-constexpr int kLargestLineNumber = 99'999;  // of N words; then they begin again
+constexpr int kLargestLineNumber = 99'999;  // of N words; longer programs repeat them
+constexpr std::size_t kLinesAround = 200;   // more than stand before and after the moves
 constexpr std::array<const char*, 3> kAxis = {"X", "Y", "Z"};
 constexpr std::array<const char*, 3> kCenter = {"I", "J", "K"};
 constexpr EnumArray<ArcPlane, const char*> kPlaneWord{{{"G17", "G18", "G19"}}};
@@ -63,6 +64,10 @@ absl::Status Validate(const Toolpath& toolpath, const Tool& tool, const PostPara
       !(std::abs(params.clearance_z) <= largest)) {
     return bad(fmt::format("program zero, ball radius or clearance beyond {} mm", kLargestCoordinate));
   }
+  if (params.restart_points && params.dialect.restart.empty()) {
+    return bad(
+        fmt::format("post.restart_points: the dialect {} has no section [restart]", params.dialect.name));
+  }
   if (!(params.chord_sagitta > 0.0))
     return bad(fmt::format("chord_sagitta = {} mm; must be > 0", params.chord_sagitta));
   for (std::size_t i = 0; i < toolpath.moves.size(); ++i) {
@@ -79,6 +84,19 @@ absl::Status Validate(const Toolpath& toolpath, const Tool& tool, const PostPara
   return absl::OkStatus();
 }
 
+// A section among the rounded moves.
+struct RoundedSection {
+  std::size_t first_move = 0;
+  const ProgramSection* section = nullptr;
+  bool restart = false;  // lines that begin a program anew stand before it
+  Ticks place{};         // of a restart: over the end of its first move
+};
+
+struct RoundedMoves {
+  std::vector<RoundedMove> moves;
+  std::vector<RoundedSection> sections;
+};
+
 // Turns centres into rounded tips in the program frame. The first move is a rapid to the place over the first
 // point, at the clearance plane or higher. Moves that vanish in rounding are dropped.
 class MoveRounder {
@@ -89,14 +107,24 @@ class MoveRounder {
         decimals_(params.dialect.decimals),
         shift_(params.program_zero + Vec3(0, 0, toolpath.ball_radius)) {}
 
-  std::vector<RoundedMove> Round() {
+  RoundedMoves Round() {
     const std::int64_t clearance = ToTicks(params_.clearance_z - params_.program_zero.z(), decimals_);
     moves_.reserve(toolpath_.moves.size() + 2);
     at_ = At(toolpath_.moves.front().to - shift_);
     at_[2] = std::max(at_[2], clearance);
     moves_.push_back({.rapid = true, .to = at_});
+    std::vector<RoundedSection> sections;
+    auto next = params_.sections.begin();
     for (std::size_t k = 0; k < toolpath_.moves.size(); ++k) {
       const Move& move = toolpath_.moves[k];
+      for (; next != params_.sections.end() && next->first_move <= k; ++next) {
+        const bool restart = params_.restart_points && next->restart && k > 0;
+        if (restart) {
+          at_ = At(move.to - shift_);
+          at_[2] = std::max(at_[2], clearance);
+        }
+        sections.push_back({moves_.size(), &*next, restart, at_});
+      }
       if (move.arc && k > 0) {
         Turn(toolpath_.moves[k - 1].to, move);
       } else {
@@ -107,7 +135,7 @@ class MoveRounder {
       at_[2] = clearance;
       moves_.push_back({.rapid = true, .to = at_});
     }
-    return std::move(moves_);
+    return {std::move(moves_), std::move(sections)};
   }
 
  private:
@@ -174,7 +202,13 @@ std::string PlaceText(const Dialect& dialect, std::int64_t ticks) {
 // Writes blocks without repeating modal words.
 class BlockWriter {
  public:
-  explicit BlockWriter(const Dialect& dialect) : dialect_(dialect) {}
+  // `lines`: about as many will be written. The step of their numbers is so small that no number repeats, if
+  // that is possible.
+  BlockWriter(const Dialect& dialect, std::size_t lines)
+      : dialect_(dialect),
+        step_(static_cast<int>(std::min<std::size_t>(static_cast<std::size_t>(dialect.line_number_step),
+                                                     std::max<std::size_t>(kLargestLineNumber / lines, 1)))) {
+  }
 
   // A line without a number, where lines need none.
   void Bare(std::string_view text) {
@@ -183,17 +217,23 @@ class BlockWriter {
     text_ += dialect_.line_end;
   }
   void Line(std::string_view text) {
-    const bool numbered = dialect_.line_number_step > 0 && text != "%" && text.front() != 'O';
+    const bool numbered = step_ > 0 && text != "%" && text.front() != 'O';
     if (numbered && !IsKlartext()) {
-      number_ += dialect_.line_number_step;
-      if (number_ > kLargestLineNumber) number_ = dialect_.line_number_step;
+      number_ += step_;
+      if (number_ > kLargestLineNumber) number_ = step_;
       text_ += fmt::format("N{} ", number_);
     }
     Bare(text);
   }
   bool IsKlartext() const { return dialect_.syntax == Syntax::kKlartext; }
-  // The position to which the lines before have sent the tool by G0.
-  void StartAt(const Ticks& at) { at_ = at; }
+  // The lines before have sent the tool there by G0, and every mode is as at the start of a program.
+  void StartAt(const Ticks& at) {
+    at_ = at;
+    rapid_ = true;
+    motion_ = "G0";
+    plane_ = {};
+    feed_ = 0.0;
+  }
   void Go(const RoundedMove& move) {
     std::string block;
     const auto add = [&](std::string_view word) {
@@ -244,6 +284,7 @@ class BlockWriter {
   }
 
   const Dialect& dialect_;
+  const int step_;  // of line numbers; 0: none
   std::string text_;
   int number_ = 0;
   Ticks at_{};
@@ -353,19 +394,19 @@ absl::StatusOr<std::string> WriteProgram(const Toolpath& toolpath, const Tool& t
                                          const PostParams& params) {
   PM_RETURN_IF_ERROR(Validate(toolpath, tool, params));
   const Dialect& dialect = params.dialect;
-  const std::vector<RoundedMove> moves = MoveRounder(toolpath, params).Round();
+  const auto [moves, sections] = MoveRounder(toolpath, params).Round();
   const auto place = [&](std::size_t k) { return PlaceText(dialect, moves.front().to[k]); };
-  const PostValues values{.program = fmt::format("{:04}", params.program_number),
-                          .work_offset = params.work_offset,
-                          .tool = fmt::format("{}", tool.number),
-                          .speed = FormatShort(tool.spindle_rpm, 1),
-                          .coolant = CoolantLine(dialect, tool.coolant),
-                          .path = PathLine(dialect, params.controller_tolerance),
-                          .tolerance = {},
-                          .x = place(0),
-                          .y = place(1),
-                          .z = place(2)};
-  BlockWriter out(dialect);
+  PostValues values{.program = fmt::format("{:04}", params.program_number),
+                    .work_offset = params.work_offset,
+                    .tool = fmt::format("{}", tool.number),
+                    .speed = FormatShort(tool.spindle_rpm, 1),
+                    .coolant = CoolantLine(dialect, tool.coolant),
+                    .path = PathLine(dialect, params.controller_tolerance),
+                    .tolerance = {},
+                    .x = place(0),
+                    .y = place(1),
+                    .z = place(2)};
+  BlockWriter out(dialect, moves.size() + kLinesAround * (1 + sections.size()));
   const auto write = [&](const std::vector<std::string>& lines) {
     for (const std::string& line : lines) {
       if (line == kHeaderLine) {
@@ -379,7 +420,25 @@ absl::StatusOr<std::string> WriteProgram(const Toolpath& toolpath, const Tool& t
   };
   write(dialect.begin);
   out.StartAt(moves.front().to);
-  for (std::size_t i = 1; i < moves.size(); ++i) out.Go(moves[i]);
+  const auto comment = [&](const std::string& text) {
+    for (const std::string& line : CommentLines(dialect, text)) out.Bare(line);
+  };
+  int restarts = 0;
+  auto next = sections.begin();
+  for (std::size_t i = 1; i < moves.size(); ++i) {
+    for (; next != sections.end() && next->first_move <= i; ++next) {
+      comment(next->section->comment);
+      if (!next->restart) continue;
+      comment(fmt::format("restart point {}: the control may start at the next line, with T{} in the spindle",
+                          ++restarts, tool.number));
+      values.x = PlaceText(dialect, next->place[0]);
+      values.y = PlaceText(dialect, next->place[1]);
+      values.z = PlaceText(dialect, next->place[2]);
+      write(dialect.restart);
+      out.StartAt(next->place);
+    }
+    out.Go(moves[i]);
+  }
   out.EndMoves();
   write(dialect.end);
   return out.Take();

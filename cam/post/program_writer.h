@@ -1,6 +1,7 @@
 // Writes a toolpath as the text of a program in one dialect [machining M3, M8, M14, M17, M18].
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -12,6 +13,16 @@
 #include "cam/toolpath/toolpath.h"
 
 namespace patchmill {
+
+// Moves that belong together, for the operator.
+struct ProgramSection {
+  std::size_t first_move = 0;  // index into Toolpath::moves
+  std::string comment;
+  int first_pass = 0;      // Move::pass with which the section begins, or goes on
+  bool continued = false;  // the section goes on after a restart point
+  // The control may be started here. The tool is clear of everything before the first move, which is a rapid.
+  bool restart = false;
+};
 
 struct PostParams {
   Dialect dialect = LinuxCnc();
@@ -27,6 +38,9 @@ struct PostParams {
   double chord_sagitta = 0.001;
   std::vector<std::string>
       header;  // comment lines: assumptions, warnings, hash; WriteProgram makes them safe for the dialect
+  std::vector<ProgramSection> sections = {};  // by first_move, ascending; a comment before each
+  // Before sections with `restart` stand the lines of the dialect that begin a program anew.
+  bool restart_points = false;
 };
 
 // Writes straight moves, and arcs where the dialect has them. An arc is written as two, or else as chords,
@@ -34,7 +48,8 @@ struct PostParams {
 // its radius or its climb is not the dialect's. Coordinates have the dialect's decimals, no exponent and no
 // "-0.0000"; moves that vanish in rounding are dropped. Before and after the moves stand the lines of the
 // dialect. Modal words are not repeated. The text is ASCII and ends with a newline. INVALID_ARGUMENT for an
-// unknown work offset, for tool data, moves or parameters out of range, and for a toolpath without moves.
+// unknown work offset, for tool data, moves or parameters out of range, for restart points where the dialect
+// has no lines for them, and for a toolpath without moves.
 absl::StatusOr<std::string> WriteProgram(const Toolpath& toolpath, const Tool& tool,
                                          const PostParams& params);
 

@@ -43,6 +43,12 @@ double Sweep(const Arc& arc, const ArcEnds& ends) {
   return sweep < kNoTurn ? sweep + 2.0 * kPi : sweep;
 }
 
+double ArcLength(const Arc& arc, const ArcEnds& ends) {
+  const Vec3 from = ToPlane(arc.plane, ends.from), to = ToPlane(arc.plane, ends.to);
+  const double radius = 0.5 * ((Xy(from) - arc.center).norm() + (Xy(to) - arc.center).norm());
+  return std::hypot(Sweep(arc, ends) * radius, to.z() - from.z());
+}
+
 Vec3 PlaceOn(const Arc& arc, const ArcEnds& ends, double t) {
   if (t <= 0.0) return ends.from;
   if (t >= 1.0) return ends.to;

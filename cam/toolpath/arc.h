@@ -35,6 +35,9 @@ struct ArcEnds {
 // Rad, in (0, 2 pi]: by how much the arc turns, whatever its direction. The ends must not be the centre.
 double Sweep(const Arc& arc, const ArcEnds& ends);
 
+// mm, along the arc; of a helix the third axis counts, too.
+double ArcLength(const Arc& arc, const ArcEnds& ends);
+
 // The place at the share t of the sweep, 0 to 1. If the ends have different radii, the radius changes in
 // proportion to t. The ends themselves are exact.
 Vec3 PlaceOn(const Arc& arc, const ArcEnds& ends, double t);

@@ -160,8 +160,10 @@ Diagnostics BrokenLimits(const Surface& surface, const ProgramMotion& motion, co
     const Floor over_top = [&](const PathSegment& s) {
       return std::min(s.a.z(), s.b.z()) - limits.ball - o.top_z - o.margin;
     };
-    report.Add("OBSTACLE_HIT", Broken(all, room, over_top, slack, run),
-               fmt::format("the tool is within {:.4g} mm of obstacle {}", o.margin, name));
+    const char* code = o.of_holder ? "HOLDER_HIT" : "OBSTACLE_HIT";
+    const std::string within = fmt::format("within {:.4g} mm of obstacle {}", o.margin, name);
+    report.Add(code, Broken(all, room, over_top, slack, run),
+               o.of_holder ? "the holder is too near to obstacle " + name : "the tool is " + within);
     std::vector<Least> beside;
     for (const PathSegment& s : dog_legs) {
       if (run.Cancelled()) break;
@@ -171,10 +173,9 @@ Diagnostics BrokenLimits(const Surface& surface, const ProgramMotion& motion, co
       least.move = s.move;
       beside.push_back(least);
     }
-    report.Add(
-        "OBSTACLE_HIT", std::move(beside),
-        fmt::format("not driving all axes together, a control may come within {:.4g} mm of obstacle {}",
-                    o.margin, name));
+    report.Add(code, std::move(beside),
+               "not driving all axes together, a control may come " +
+                   (o.of_holder ? "too near with the holder to obstacle " + name : within));
   }
   if (!c.beside.empty()) {
     const Room room = [&](const Vec3& center) { return BesideRoom(c, center - Vec3(0.0, 0.0, limits.ball)); };

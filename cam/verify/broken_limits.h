@@ -21,6 +21,7 @@ struct LimitCheck {
 // Reports moves that go more than check.slack beyond a limit, to 1e-3 mm:
 // - OBSTACLE_HIT: all moves, and for rapids all places to which a control may go that drives one axis before
 //   the other;
+// - HOLDER_HIT: the same for the holder;
 // - BESIDE_PART: all moves;
 // - OUTSIDE_BOUNDARY: feed moves;
 // - ABOVE_TOP: feed moves that touch the surface while the tip is above the highest one allowed. Moves

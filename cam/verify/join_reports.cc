@@ -31,6 +31,7 @@ std::size_t PartOfFinish(const std::vector<PartReport>& parts, PartsOfProgram ki
 void JoinFigures(const VerifyReport& other, PartsOfProgram kind, VerifyReport& joined) {
   joined.gouge_ok = joined.gouge_ok && other.gouge_ok;
   joined.motion_ok = joined.motion_ok && other.motion_ok;
+  if (other.holder_ok) joined.holder_ok = joined.holder_ok.value_or(true) && *other.holder_ok;
   if (other.max_gouge > joined.max_gouge) {
     joined.max_gouge = other.max_gouge;
     joined.max_gouge_at = other.max_gouge_at;

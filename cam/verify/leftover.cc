@@ -175,18 +175,18 @@ class LeftoverSearch {
     return TopRoomAt(params_.reach.limits, low->z() + radius * lowest) < 0.0;
   }
 
-  // True if the shank blocks all centres over the cell. This is tested with one height for all centres, as
-  // over a flat surface.
+  // True if shank or holder blocks all centres over the cell. This is tested with one height for all
+  // centres, as over a flat surface.
   bool UnderShank(const SurfaceCell& cell, const Facing& facing, double turn) const {
     const CenterLimits& limits = params_.reach.limits;
-    if (!limits.shank) return false;
+    if (limits.uppers.empty()) return false;
     const double radius = params_.reach.radius, beside = cell.radius + turn * radius;
     const Vec3* high = std::max_element(cell.hull, cell.hull + cell.hull_count,
                                         [](const Vec3& a, const Vec3& b) { return a.z() < b.z(); });
     for (const Vec3& e : {facing.e, Vec3(-facing.e)}) {
       Vec3 center = cell.middle + radius * e;
       center.z() = high->z() + radius * std::min(1.0, e.z() + turn);
-      if (!ShankHitsAll(surface_, limits, center, beside, kShankProof * params_.reach.reach_tolerance))
+      if (!UpperPartHitsAll(surface_, limits, center, beside, kShankProof * params_.reach.reach_tolerance))
         return false;
       if (!facing.both) return true;
     }

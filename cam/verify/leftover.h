@@ -30,23 +30,26 @@ enum class FinishClass {
   kAvoided,
   kStrategy,
   kShank,
+  kHolder,
   kOutside,
   kUnwanted
 };
 constexpr FinishClass LastOf(FinishClass) { return FinishClass::kUnwanted; }
 
 struct AreaReport {
-  EnumArray<FinishClass, double> area{};    // mm^2
-  EnumArray<FinishClass, Extreme> deepest;  // largest leftover that was found of each class
-  double lowest_center = kInfinity;         // mm, lowest centre height that only the floor forbids
-  double highest_rise = -kInfinity;         // mm, largest RiseNeeded of places that only the shank blocks
+  EnumArray<FinishClass, double> area{};       // mm^2
+  EnumArray<FinishClass, double> plan_area{};  // mm^2, as seen along Z
+  EnumArray<FinishClass, Extreme> deepest;     // largest leftover that was found of each class
+  double lowest_center = kInfinity;            // mm, lowest centre height that only the floor forbids
+  // mm, largest RaiseNeeded of places that only the shank, or only the holder, blocks; 0: none
+  EnumArray<UpperPart, double> raise{};
 };
 
 // Measures the area of each class by samples at the middle and the corners of each root cell. A cell whose
 // samples differ in class is quartered, at most five times, and less often if there are many such cells:
 // about 60,000 cells are spent along the borders of the classes. `lowest_center` is found by a search in the
-// piece of the lowest sample that only the floor forbids, `highest_rise` in the same way from the sample with
-// the largest RiseNeeded. So is the deepest leftover of each class that is not to be finished, from its
+// piece of the lowest sample that only the floor forbids, `raise` in the same way from the samples with the
+// largest RaiseNeeded. So is the deepest leftover of each class that is not to be finished, from its
 // deepest sample. `tree` has Metric::kPath and holds the feed moves.
 absl::StatusOr<AreaReport> MeasureAreas(const RootedSurface& rooted, const SegmentTree& tree,
                                         const LeftoverParams& params, const RunContext& run);

@@ -29,12 +29,14 @@ constexpr double kNear = 2.0;            // of R: nearer unreachable points are 
 struct Sample {
   std::optional<FinishClass> kind;  // nullopt where the surface has no normal; it has no area there
   double element = 0.0;             // |S_u x S_v|
+  double plan_element = 0.0;        // its part along Z
 };
 
 struct Sums {
   AreaReport report;
-  // Places of report.lowest_center, report.highest_rise and report.deepest, as rectangles without size.
-  CellRect lowest, highest;
+  // Places of report.lowest_center, report.raise and report.deepest, as rectangles without size.
+  CellRect lowest;
+  EnumArray<UpperPart, CellRect> raised;
   EnumArray<FinishClass, CellRect> deepest;
 };
 
@@ -60,11 +62,12 @@ double CenterBelowFloor(const Surface& surface, const PiecePlace& at, const Reac
   return jet.p.z() + reach.radius * facing->e.z();
 }
 
-// RiseNeeded of a place; `known` if there is no normal.
-double RiseAt(const Surface& surface, const PiecePlace& at, const ReachParams& reach, double known) {
+// RaiseNeeded of a place; `known` if there is no normal.
+double RaiseAt(const Surface& surface, const PiecePlace& at, const ReachParams& reach, UpperPart part,
+               double known) {
   const SurfaceJet jet = EvaluateAt(surface, at);
   const auto facing = FacingAt(jet);
-  return facing ? RiseNeeded(surface, jet.p, *facing, reach, known) : known;
+  return facing ? RaiseNeeded(surface, jet.p, *facing, reach, part, known) : known;
 }
 
 // The smallest value that a pattern search finds in the piece around a place with the value `best`.
@@ -117,7 +120,8 @@ int DeepestFor(std::size_t cells, const Spent& spent, double more = 2.0) {
 
 bool Unreachable(FinishClass kind) {
   return kind == FinishClass::kUndercut || kind == FinishClass::kConcave || kind == FinishClass::kFloor ||
-         kind == FinishClass::kAvoided || kind == FinishClass::kShank || kind == FinishClass::kOutside;
+         kind == FinishClass::kAvoided || kind == FinishClass::kShank || kind == FinishClass::kHolder ||
+         kind == FinishClass::kOutside;
 }
 
 // True for a reachable place, finished or not.
@@ -166,8 +170,9 @@ class AreaSampler {
     const double size = (cell.u1 - cell.u0) * (cell.v1 - cell.v0);
     for (std::size_t k = 0; k < 5; ++k) {
       if (!samples[k]->kind) continue;
-      sums.report.area[*samples[k]->kind] +=
-          size * (k == 4 ? kMiddleWeight : kCornerWeight) * samples[k]->element;
+      const double weight = size * (k == 4 ? kMiddleWeight : kCornerWeight);
+      sums.report.area[*samples[k]->kind] += weight * samples[k]->element;
+      sums.report.plan_area[*samples[k]->kind] += weight * samples[k]->plan_element;
     }
     return limits;
   }
@@ -190,7 +195,8 @@ class AreaSampler {
     const auto [at, added] = samples_.try_emplace(place);
     if (added) {
       const SurfaceJet jet = EvaluateAt(surface_, place);
-      at->second = {Classify(jet, place, sums), jet.du.cross(jet.dv).norm()};
+      const Vec3 across = jet.du.cross(jet.dv);
+      at->second = {Classify(jet, place, sums), across.norm(), std::abs(across.z())};
       const auto& [piece, u, v] = place;
       if (at->second.kind == FinishClass::kFloor) {
         const double z = CenterBelowFloor(surface_, place, params_.reach);
@@ -199,11 +205,13 @@ class AreaSampler {
           sums.lowest = {piece, u, u, v, v};
         }
       }
-      if (at->second.kind == FinishClass::kShank) {
-        const double rise = RiseAt(surface_, place, params_.reach, sums.report.highest_rise);
-        if (rise > sums.report.highest_rise) {
-          sums.report.highest_rise = rise;
-          sums.highest = {piece, u, u, v, v};
+      if (at->second.kind == FinishClass::kShank || at->second.kind == FinishClass::kHolder) {
+        const UpperPart part =
+            at->second.kind == FinishClass::kShank ? UpperPart::kShank : UpperPart::kHolder;
+        const double raise = RaiseAt(surface_, place, params_.reach, part, sums.report.raise[part]);
+        if (raise > sums.report.raise[part]) {
+          sums.report.raise[part] = raise;
+          sums.raised[part] = {piece, u, u, v, v};
         }
       }
     }
@@ -233,6 +241,9 @@ class AreaSampler {
         break;
       case ReachClass::kShank:
         kind = FinishClass::kShank;
+        break;
+      case ReachClass::kHolder:
+        kind = FinishClass::kHolder;
         break;
       case ReachClass::kOutside:
         kind = FinishClass::kOutside;
@@ -329,6 +340,7 @@ absl::StatusOr<AreaReport> MeasureAreas(const RootedSurface& rooted, const Segme
   for (const Sums& part : parts) {
     for (const FinishClass kind : Enumerators<FinishClass>()) {
       sums.report.area[kind] += part.report.area[kind];
+      sums.report.plan_area[kind] += part.report.plan_area[kind];
       if (part.report.deepest[kind].value > sums.report.deepest[kind].value) {
         sums.report.deepest[kind] = part.report.deepest[kind];
         sums.deepest[kind] = part.deepest[kind];
@@ -338,9 +350,10 @@ absl::StatusOr<AreaReport> MeasureAreas(const RootedSurface& rooted, const Segme
       sums.report.lowest_center = part.report.lowest_center;
       sums.lowest = part.lowest;
     }
-    if (part.report.highest_rise > sums.report.highest_rise) {
-      sums.report.highest_rise = part.report.highest_rise;
-      sums.highest = part.highest;
+    for (const UpperPart upper : Enumerators<UpperPart>()) {
+      if (part.report.raise[upper] <= sums.report.raise[upper]) continue;
+      sums.report.raise[upper] = part.report.raise[upper];
+      sums.raised[upper] = part.raised[upper];
     }
   }
   for (const FinishClass kind : Enumerators<FinishClass>()) {
@@ -353,9 +366,13 @@ absl::StatusOr<AreaReport> MeasureAreas(const RootedSurface& rooted, const Segme
   sums.report.lowest_center =
       LeastAround(sums.lowest, sums.report.lowest_center,
                   [&](const PiecePlace& at, double) { return CenterBelowFloor(surface, at, params.reach); });
-  sums.report.highest_rise = -LeastAround(
-      sums.highest, -sums.report.highest_rise,
-      [&](const PiecePlace& at, double best) { return -RiseAt(surface, at, params.reach, -best); });
+  for (const UpperPart part : Enumerators<UpperPart>()) {
+    double& raise = sums.report.raise[part];
+    if (!(raise > 0.0)) continue;
+    raise = -LeastAround(sums.raised[part], -raise, [&](const PiecePlace& at, double best) {
+      return -RaiseAt(surface, at, params.reach, part, -best);
+    });
+  }
   return sums.report;
 }
 

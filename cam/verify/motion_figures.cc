@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cam/limits/wide_shank.h"
+#include "cam/limits/upper_cylinders.h"
 #include "core/base/status.h"
 
 namespace patchmill {

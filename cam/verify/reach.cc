@@ -48,7 +48,7 @@ bool NearAvoided(const CenterLimits& limits, const Vec3& c, double proof) {
 bool AllowsBesidePart(const Surface& surface, const Vec3& c, const ReachParams& params) {
   const double proof = kProof * params.reach_tolerance;
   return RoomAt(params.limits, c) >= 0.0 && !NearAvoided(params.limits, c, proof) &&
-         !ShankHitsAll(surface, params.limits, c, 0.0, proof);
+         !UpperPartHitsAll(surface, params.limits, c, 0.0, proof);
 }
 
 Vec3 FromRay(const Vec3& p, const Vec3& c) {
@@ -156,12 +156,28 @@ double Obstacles::DistanceTo(const Vec3& c, double limit) const {
 
 void Obstacles::Add(const Vec3& p) { kept_[count_++ % kKept] = p; }
 
+namespace {
+
+bool HasHolder(const CenterLimits& limits) {
+  return !limits.uppers.empty() && limits.uppers.back().part == UpperPart::kHolder;
+}
+
+// The same limits without the holder.
+CenterLimits BelowHolder(CenterLimits limits) {
+  while (HasHolder(limits)) limits.uppers = limits.uppers.first(limits.uppers.size() - 1);
+  return limits;
+}
+
+}  // namespace
+
 double RoomAt(const CenterLimits& limits, const Vec3& center) {
   if (limits.containment == nullptr) return kInfinity;
   const Containment& c = *limits.containment;
   const Vec3 tip = center - Vec3(0.0, 0.0, limits.ball);
   double room = BoundaryRoom(c, Xy(center), limits.ball);
-  for (const Obstacle& o : c.obstacles) room = std::min(room, ObstacleRoom(o, tip, limits.tool));
+  for (const Obstacle& o : c.obstacles) {
+    if (!o.of_holder || HasHolder(limits)) room = std::min(room, ObstacleRoom(o, tip, limits.tool));
+  }
   return std::min(room - limits.within, TopRoomAt(limits, center.z()));
 }
 
@@ -185,6 +201,7 @@ ReachClass ReachAt(const Surface& surface, const Vec3& p, const Facing& facing, 
   const double limit = params.radius - params.reach_tolerance;
   const auto centers = Centers(p, facing, params.radius);
   ReachClass reason = ReachClass::kReachable;
+  const CenterLimits below = BelowHolder(params.limits);
   for (int side = 0; side < (facing.both ? 2 : 1); ++side) {
     const Vec3& c = centers[static_cast<std::size_t>(side)];
     ReachClass found = ReachClass::kReachable;
@@ -194,11 +211,14 @@ ReachClass ReachAt(const Surface& surface, const Vec3& p, const Facing& facing, 
       found = ReachClass::kOutside;
     } else if (c.z() < params.floor_z - params.reach_tolerance) {
       found = ReachClass::kFloor;
-    } else if (std::min(RoomAt(params.limits, c), BesideRoomAt(params.limits, c)) < 0.0 ||
+    } else if (std::min(RoomAt(below, c), BesideRoomAt(params.limits, c)) < 0.0 ||
                NearAvoided(params.limits, c, kProof * params.reach_tolerance)) {
       found = ReachClass::kAvoided;
-    } else if (ShankHitsAll(surface, params.limits, c, 0.0, kProof * params.reach_tolerance)) {
-      found = ReachClass::kShank;
+    } else if (const auto part =
+                   UpperPartHitsAll(surface, params.limits, c, 0.0, kProof * params.reach_tolerance)) {
+      found = *part == UpperPart::kShank ? ReachClass::kShank : ReachClass::kHolder;
+    } else if (RoomAt(params.limits, c) < 0.0) {
+      found = ReachClass::kHolder;  // beside a clamp
     }
     if (found == ReachClass::kReachable) return found;
     // If both sides are blocked, the side that is easier to free gives the reason.
@@ -230,7 +250,7 @@ bool IsRequiredOn(const Surface& surface, const SurfacePoint& at, const Facing& 
                   const ReachParams& params, Obstacles& obstacles) {
   if (ReachOn(surface, at, facing, params, obstacles) != ReachClass::kReachable) return false;
   const CenterLimits& limits = params.limits;
-  if (limits.avoided == nullptr && !limits.shank &&
+  if (limits.avoided == nullptr && limits.uppers.empty() &&
       (limits.containment == nullptr || limits.containment->AllowsAll())) {
     return true;
   }
@@ -240,7 +260,8 @@ bool IsRequiredOn(const Surface& surface, const SurfacePoint& at, const Facing& 
   const double proof = kProof * params.reach_tolerance;
   const Vec3 center = at.p + params.radius * facing.e;
   if (!facing.both && RoomAt(moved.limits, center) >= 0.0 && BesideRoomAt(moved.limits, center) >= 0.0 &&
-      !NearAvoided(moved.limits, center, proof) && !ShankHitsAll(surface, moved.limits, center, 0.0, proof)) {
+      !NearAvoided(moved.limits, center, proof) &&
+      !UpperPartHitsAll(surface, moved.limits, center, 0.0, proof)) {
     return true;
   }
   if (ReachOn(surface, at, facing, moved, obstacles) == ReachClass::kReachable) return true;
@@ -252,13 +273,17 @@ bool IsRequiredOn(const Surface& surface, const SurfacePoint& at, const Facing& 
   });
 }
 
-double RiseNeeded(const Surface& surface, const Vec3& p, const Facing& facing, const ReachParams& params,
-                  double known) {
-  if (!params.limits.shank) return known;
+double RaiseNeeded(const Surface& surface, const Vec3& p, const Facing& facing, const ReachParams& params,
+                   UpperPart part, double known) {
   const CenterLimits& limits = params.limits;
   const double proof = kProof * params.reach_tolerance;
+  const auto holder = std::find_if(limits.uppers.begin(), limits.uppers.end(),
+                                   [](const UpperCylinder& c) { return c.part == UpperPart::kHolder; });
+  const std::span shanks(limits.uppers.begin(), holder), holders(holder, limits.uppers.end());
+  const std::span<const UpperCylinder> raised = part == UpperPart::kShank ? shanks : holders;
+  if (raised.empty()) return known;
   ReachParams slim = params;
-  slim.limits.shank.reset();
+  slim.limits.uppers = part == UpperPart::kShank ? holders : shanks;
   const auto centers = Centers(p, facing, params.radius);
   double needed = kInfinity;
   for (int side = 0; side < (facing.both ? 2 : 1); ++side) {
@@ -267,30 +292,41 @@ double RiseNeeded(const Surface& surface, const Vec3& p, const Facing& facing, c
     const Vec3& c = centers[static_cast<std::size_t>(side)];
     const Vec2 q = Xy(c);
     double here = known;
-    const auto raise = [&](const Surface& over, double keep) {
-      const double from = c.z() + here - keep;
-      const auto highest = HighestInColumn(over, {q, q, limits.shank->radius + keep}, from, proof);
-      if (highest) here = highest->p.z() - c.z() + keep + proof;
+    const auto raise = [&](const UpperCylinder& cylinder, const Surface& over, double keep) {
+      const double bottom = c.z() + cylinder.rise - keep;
+      const auto highest = HighestInColumn(over, {q, q, cylinder.radius + keep}, bottom + here, proof);
+      if (highest) here = highest->p.z() - bottom + proof;
     };
-    raise(surface, limits.shank_keep);
-    if (limits.avoided != nullptr) raise(*limits.avoided, limits.avoid_distance - limits.ball);
+    for (const UpperCylinder& cylinder : raised) {
+      raise(cylinder, surface, limits.upper_keep);
+      if (limits.avoided != nullptr) raise(cylinder, *limits.avoided, limits.avoid_distance - limits.ball);
+    }
+    if (part == UpperPart::kHolder && limits.containment != nullptr) {
+      const double tip = c.z() - limits.ball;
+      for (const Obstacle& o : limits.containment->obstacles) {
+        const bool over = o.of_holder && ObstacleRoom(o, Lift(q, -kInfinity), limits.tool) < 0.0;
+        if (over) here = std::max(here, o.top_z + o.margin - tip);
+      }
+    }
     needed = std::min(needed, here);
   }
   return needed < kInfinity ? needed : known;
 }
 
-bool ShankHitsAll(const Surface& surface, const CenterLimits& limits, const Vec3& center, double beside,
-                  double proof) {
-  if (!limits.shank) return false;
-  // Whether a surface stands in the shank, enlarged by `keep`.
-  const auto in_shank = [&](const Surface& obstacle, double keep) {
-    const Vec2 q = Xy(center);
-    const Column column{q, q, limits.shank->radius + keep - beside};
-    return AnyInColumn(obstacle, column, center.z() + limits.shank->rise - keep, proof);
-  };
-  if (in_shank(surface, limits.shank_keep + limits.within)) return true;
+std::optional<UpperPart> UpperPartHitsAll(const Surface& surface, const CenterLimits& limits,
+                                          const Vec3& center, double beside, double proof) {
+  const Vec2 q = Xy(center);
   const double margin = limits.avoid_distance - limits.ball + limits.within;
-  return limits.avoided != nullptr && in_shank(*limits.avoided, margin);
+  for (const UpperCylinder& cylinder : limits.uppers) {
+    // Whether a surface stands in the cylinder, enlarged by `keep`.
+    const auto in_cylinder = [&](const Surface& obstacle, double keep) {
+      const Column column{q, q, cylinder.radius + keep - beside};
+      return AnyInColumn(obstacle, column, center.z() + cylinder.rise - keep, proof);
+    };
+    if (in_cylinder(surface, limits.upper_keep + limits.within)) return cylinder.part;
+    if (limits.avoided != nullptr && in_cylinder(*limits.avoided, margin)) return cylinder.part;
+  }
+  return std::nullopt;
 }
 
 double BlockedDepth(const Surface& surface, const Vec3& p, const Facing& facing, const ReachParams& params,

@@ -4,9 +4,10 @@
 #include <array>
 #include <cstddef>
 #include <optional>
+#include <span>
 
 #include "cam/limits/containment.h"
-#include "cam/limits/wide_shank.h"
+#include "cam/limits/upper_cylinders.h"
 #include "cam/verify/verify.h"
 #include "core/diffgeo/forms.h"
 #include "core/surface/surface.h"
@@ -14,19 +15,20 @@
 namespace patchmill {
 
 // kReachable, then the reasons in the order in which they become easier to cure.
-enum class ReachClass { kReachable, kUndercut, kConcave, kFloor, kAvoided, kShank, kOutside };
+enum class ReachClass { kReachable, kUndercut, kConcave, kFloor, kAvoided, kShank, kHolder, kOutside };
 
-// The limits of a ball's centre by operation and shank. Both pointers may be null.
+// The limits of a ball's centre by operation, shank and holder. Both pointers may be null.
 struct CenterLimits {
   const Containment* containment = nullptr;
-  double ball = 0.0, tool = 0.0;     // mm, radius of the ball, larger radius of ball and shank
-  const Surface* avoided = nullptr;  // the avoided patches if a margin is kept from them
-  double avoid_distance = 0.0;       // mm, ball radius + margin
-  std::optional<WideShank> shank = std::nullopt;
-  double shank_keep = 0.0;  // mm between shank and surface (stock to leave); the margin to avoided patches
-                            // follows from avoid_distance
-  // mm: so far inside of all these limits, the shank's too, a centre must be. Negative: so far outside it may
-  // be.
+  double ball = 0.0, tool = 0.0;               // mm, radius of the ball, larger radius of ball and shank
+  const Surface* avoided = nullptr;            // the avoided patches if a margin is kept from them
+  double avoid_distance = 0.0;                 // mm, ball radius + margin
+  std::span<const UpperCylinder> uppers = {};  // UpperCylindersOf the tool
+  double upper_keep =
+      0.0;  // mm between these and the surface (stock to leave); the margin to avoided patches
+            // follows from avoid_distance
+  // mm: so far inside of all these limits, the cylinders' too, a centre must be. Negative: so far outside
+  // it may be.
   double within = 0.0;
 };
 
@@ -40,6 +42,7 @@ struct ReachParams {
 
 // Returns the room (mm) of the centre inside boundary, obstacles and top: >= 0 where these allow the centre.
 // Its slope is at most 1, so within this distance the answer stays the same (cam/limits/containment.h).
+// Obstacles limit the holder only if limits.uppers has its cylinders.
 double RoomAt(const CenterLimits& limits, const Vec3& center);
 // The same for the areas beside the part that are closed to the tool.
 double BesideRoomAt(const CenterLimits& limits, const Vec3& center);
@@ -75,8 +78,8 @@ class Obstacles {
 };
 
 // kReachable if the ball at p + R e and its upward sweep are free of the surface, not below the floor and
-// allowed, and a wider shank is clear; else the reason. If `facing` has two sides, one reachable side is
-// enough. `obstacles` belong to this surface; each thread needs its own.
+// allowed, and a wider shank and the holder are clear; else the reason. If `facing` has two sides, one
+// reachable side is enough. `obstacles` belong to this surface; each thread needs its own.
 ReachClass ReachAt(const Surface& surface, const Vec3& p, const Facing& facing, const ReachParams& params,
                    Obstacles& obstacles);
 ReachClass ReachAt(const Surface& surface, const Vec3& p, const Facing& facing, const ReachParams& params);
@@ -96,17 +99,17 @@ ReachClass ReachOn(const Surface& surface, const SurfacePoint& at, const Facing&
 bool IsRequiredOn(const Surface& surface, const SurfacePoint& at, const Facing& facing,
                   const ReachParams& params, Obstacles& obstacles);
 
-// For a point that only the shank makes unreachable: returns the least height (mm) above the ball's centre at
-// which the shank may begin (WideShank::rise) so that the point becomes reachable. Returns `known` if the
-// height is no more than `known` (mm), or if something else blocks the ball, too. Exact to 0.02 of
-// params.reach_tolerance.
-double RiseNeeded(const Surface& surface, const Vec3& p, const Facing& facing, const ReachParams& params,
-                  double known);
+// For a point that only `part` makes unreachable: returns the least distance (mm) by which the cylinders of
+// the part must begin higher so that the point becomes reachable. Returns `known` if the distance is no more
+// than `known` (mm), or if something else blocks the ball, too. Exact to 0.02 of params.reach_tolerance.
+double RaiseNeeded(const Surface& surface, const Vec3& p, const Facing& facing, const ReachParams& params,
+                   UpperPart part, double known);
 
-// True if the shank hits the surface (or an avoided patch with its margin) for every centre that is no higher
-// than `center` and within `beside` (mm) of it in plan. Exact to `proof` (mm).
-bool ShankHitsAll(const Surface& surface, const CenterLimits& limits, const Vec3& center, double beside,
-                  double proof);
+// The lowest part of the tool above the ball that hits the surface (or an avoided patch with its margin) for
+// every centre that is no higher than `center` and within `beside` (mm) of it in plan; nullopt if none does.
+// Exact to `proof` (mm).
+std::optional<UpperPart> UpperPartHitsAll(const Surface& surface, const CenterLimits& limits,
+                                          const Vec3& center, double beside, double proof);
 
 // Returns a distance (mm): if the centre moves by less, the ball stays blocked. A lower bound, by what blocks
 // the ball most: the surface, the floor or a limit of the operation. The shank does not count. > 0 only for

@@ -36,6 +36,8 @@ absl::Status ValidateVerifyInput(const Surface& surface, const Tool& tool, const
     return bad("tool.shank_diameter", *tool.shank_diameter,
                "no wider than the ball unless flute_length says where the shank begins");
   }
+  if (!tool.holder.empty() && !tool.stickout)
+    return absl::InvalidArgumentError("tool.holder: tool.stickout must say where it begins");
   const Containment& c = params.containment;
   const std::size_t patches = surface.network.model.patches.size();
   if ((!c.selected.empty() && c.selected.size() != patches) ||

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "cam/limits/reach_tolerance.h"
-#include "cam/limits/wide_shank.h"
+#include "cam/limits/upper_cylinders.h"
 #include "cam/verify/broken_limits.h"
 #include "cam/verify/gouge.h"
 #include "cam/verify/leftover.h"
@@ -51,6 +51,7 @@ class Verifier {
     PM_RETURN_IF_ERROR(JudgeGouge());
     PM_RETURN_IF_ERROR(JudgeFinish());
     PM_RETURN_IF_ERROR(JudgeMotion());
+    JudgeHolder();
     run_.Progress("verify", 1.0);
     return std::move(report_);
   }
@@ -123,23 +124,30 @@ class Verifier {
     PM_RETURN_IF_ERROR(JudgeAvoidedBy(boxes, p,
                                       "not driving all axes together, a control may take a rapid too "
                                       "near to an avoided patch"));
-    const auto shank = WideShankOf(tool_);
-    if (!shank) return absl::OkStatus();
     // Everything within the margin of a cylinder lies in a cylinder that is wider and begins lower by the
     // margin.
     const double margin = params_.containment.avoid_margin;
-    p.radius = shank->radius + margin;
-    const Vec3 up(0, 0, shank->rise - margin);
-    const SegmentTree shanks(CollectMoves(motion_, MotionSet::kSwept, offset_ + up), Metric::kShank, radius_,
-                             run_, p.radius);
-    PM_RETURN_IF_ERROR(JudgeAvoidedBy(shanks, p, "the shank comes too near to an avoided patch"));
-    const SegmentTree shank_boxes(CollectMoves(motion_, MotionSet::kDogLegs, offset_ + up), Metric::kShankBox,
-                                  radius_, run_, p.radius);
-    return JudgeAvoidedBy(shank_boxes, p,
-                          "not driving all axes together, a control may take the shank of a rapid too near "
-                          "to an avoided patch");
+    for (const UpperCylinder& cylinder : UppersThatMayTouch(*avoided, margin)) {
+      const char* part = Name(cylinder.part);
+      p.radius = cylinder.radius + margin;
+      const Vec3 up(0, 0, cylinder.rise - margin);
+      const SegmentTree swept(CollectMoves(motion_, MotionSet::kSwept, offset_ + up), Metric::kShank, radius_,
+                              run_, p.radius);
+      const std::size_t before = report_.findings.size();
+      PM_RETURN_IF_ERROR(
+          JudgeAvoidedBy(swept, p, fmt::format("the {} comes too near to an avoided patch", part)));
+      const SegmentTree any_way(CollectMoves(motion_, MotionSet::kDogLegs, offset_ + up), Metric::kShankBox,
+                                radius_, run_, p.radius);
+      PM_RETURN_IF_ERROR(JudgeAvoidedBy(
+          any_way, p,
+          fmt::format("not driving all axes together, a control may take the {} of a rapid too near to an "
+                      "avoided patch",
+                      part)));
+      if (cylinder.part == UpperPart::kHolder && report_.findings.size() > before) holder_may_hit_ = true;
+    }
+    return absl::OkStatus();
   }
-  absl::Status JudgeAvoidedBy(const SegmentTree& tree, const GougeParams& p, const char* text) {
+  absl::Status JudgeAvoidedBy(const SegmentTree& tree, const GougeParams& p, const std::string& text) {
     const Surface& avoided = *limits_->centers().avoided;
     const std::vector<CellRect> roots = RootCells(avoided, radius_, run_);
     PM_ASSIGN_OR_RETURN(Extremes found,
@@ -163,7 +171,7 @@ class Verifier {
     report_.max_gouge = gouge.worst.value;
     report_.max_gouge_at = Place(gouge.worst);
     ReportPlaces("GOUGE", gouge.violations, "the ball or the shank above it cuts into the surface");
-    PM_RETURN_IF_ERROR(JudgeShank(p));
+    PM_RETURN_IF_ERROR(JudgeUppers(p));
     report_.gouge_ok = report_.max_gouge + smoothing <= params_.tolerance;
     if (!std::isfinite(smoothing)) {
       Report("CONTROL_SMOOTHING", "no word says how far the control may leave the path: it is not bounded");
@@ -199,28 +207,57 @@ class Verifier {
     return absl::OkStatus();
   }
 
-  absl::Status JudgeShank(GougeParams p) {
-    const auto shank = WideShankOf(tool_);
-    if (!shank) return absl::OkStatus();
-    const Vec3 up(0, 0, shank->rise);
-    p.radius = shank->radius + params_.leave;
-    const SegmentTree tree(CollectMoves(motion_, MotionSet::kSwept, offset_ + up), Metric::kShank, radius_,
-                           run_, shank->radius);
-    PM_ASSIGN_OR_RETURN(const Extremes found, FindGouge({surface_, roots_}, tree, p, run_, "verify: shank"));
-    if (found.worst.value > report_.max_gouge) {
-      report_.max_gouge = found.worst.value;
-      report_.max_gouge_at = Place(found.worst);
+  // The cylinders of the tool above the ball that come so low, somewhere, that they may touch `surface` with
+  // this margin (mm).
+  std::vector<UpperCylinder> UppersThatMayTouch(const Surface& surface, double margin) const {
+    double lowest = kInfinity;  // centre
+    for (const PathSegment& move : CollectMoves(motion_, MotionSet::kSwept, offset_))
+      lowest = std::min({lowest, move.a.z(), move.b.z()});
+    std::vector<UpperCylinder> cylinders = UpperCylindersOf(tool_);
+    std::erase_if(cylinders, [&](const UpperCylinder& cylinder) {
+      return lowest + cylinder.rise - margin > surface.box.max.z();
+    });
+    return cylinders;
+  }
+
+  absl::Status JudgeUppers(GougeParams p) {
+    for (const UpperCylinder& cylinder : UppersThatMayTouch(surface_, params_.leave)) {
+      const char* part = Name(cylinder.part);
+      const Vec3 up(0, 0, cylinder.rise);
+      p.radius = cylinder.radius + params_.leave;
+      const SegmentTree tree(CollectMoves(motion_, MotionSet::kSwept, offset_ + up), Metric::kShank, radius_,
+                             run_, cylinder.radius);
+      PM_ASSIGN_OR_RETURN(const Extremes found,
+                          FindGouge({surface_, roots_}, tree, p, run_, "verify: shank and holder"));
+      if (found.worst.value > report_.max_gouge) {
+        report_.max_gouge = found.worst.value;
+        report_.max_gouge_at = Place(found.worst);
+      }
+      ReportPlaces(cylinder.part == UpperPart::kShank ? "SHANK_GOUGE" : "HOLDER_GOUGE", found.violations,
+                   fmt::format("the {} stands in the surface", part));
+      const SegmentTree boxes(OtherDogLegs(found, offset_ + up), Metric::kShankBox, radius_, run_,
+                              cylinder.radius);
+      PM_ASSIGN_OR_RETURN(const Extremes beside,
+                          FindGouge({surface_, roots_}, boxes, p, run_, "verify: shank and holder"));
+      if (!beside.violations.empty()) {
+        upper_part_may_hit_ = true;
+        if (cylinder.part == UpperPart::kHolder) holder_may_hit_ = true;
+      }
+      ReportPlaces("RAPID_DOG_LEG", beside.violations,
+                   fmt::format("a control that does not drive all axes together may take the {} of a rapid "
+                               "into the surface",
+                               part));
     }
-    ReportPlaces("SHANK_GOUGE", found.violations, "the shank stands in the surface");
-    const SegmentTree boxes(OtherDogLegs(found, offset_ + up), Metric::kShankBox, radius_, run_,
-                            shank->radius);
-    PM_ASSIGN_OR_RETURN(const Extremes beside,
-                        FindGouge({surface_, roots_}, boxes, p, run_, "verify: shank"));
-    if (!beside.violations.empty()) shank_may_hit_ = true;
-    ReportPlaces("RAPID_DOG_LEG", beside.violations,
-                 "a control that does not drive all axes together may take the shank of a rapid into the "
-                 "surface");
     return absl::OkStatus();
+  }
+
+  // After all else: what the findings say of the holder.
+  void JudgeHolder() {
+    if (tool_.holder.empty()) return;
+    report_.holder_ok = !holder_may_hit_ && std::none_of(report_.findings.begin(), report_.findings.end(),
+                                                         [](const Diagnostic& d) {
+                                                           return d.code.compare(0, 7, "HOLDER_") == 0;
+                                                         });
   }
 
   absl::Status JudgeFinish() {
@@ -293,6 +330,7 @@ class Verifier {
   void TakeAreas(const AreaReport& areas) {
     const auto take = [&](FinishClass kind, UncutReason reason) {
       report_.unreachable_area[reason] += areas.area[kind];
+      report_.unreachable_plan_area[reason] += areas.plan_area[kind];
       const Extreme& deepest = areas.deepest[kind];
       if (deepest.value <= report_.deepest_unreachable[reason]) return;
       report_.deepest_unreachable[reason] = deepest.value;
@@ -304,26 +342,31 @@ class Verifier {
     take(FinishClass::kAvoided, UncutReason::kAvoided);
     take(FinishClass::kStrategy, UncutReason::kStrategy);
     take(FinishClass::kShank, UncutReason::kShank);
+    take(FinishClass::kHolder, UncutReason::kHolder);
     take(FinishClass::kOutside, UncutReason::kOutside);
     if (std::isfinite(areas.lowest_center)) {
       const double floor_z = std::floor((areas.lowest_center - ball_) * 1e3) / 1e3;
       report_.finishing_floor_z = std::min(report_.finishing_floor_z.value_or(kInfinity), floor_z);
     }
-    if (std::isfinite(areas.highest_rise)) {
-      // Beside a wall the ball may stand lower by the reach tolerance.
-      const double needed = areas.highest_rise + ReachTolerance(params_.tolerance) + ball_;
-      const double flutes = std::ceil(std::max(needed, *tool_.flute_length) * 1e3) / 1e3;
-      report_.finishing_flute_length = std::max(report_.finishing_flute_length.value_or(0.0), flutes);
-    }
+    // Beside a wall the ball may stand lower by the reach tolerance.
+    const auto finishing = [&](UpperPart part, double length, std::optional<double>& out) {
+      if (!(areas.raise[part] > 0.0)) return;
+      const double needed = length + areas.raise[part] + ReachTolerance(params_.tolerance);
+      out = std::max(out.value_or(0.0), std::ceil(needed * 1e3) / 1e3);
+    };
+    finishing(UpperPart::kShank, tool_.flute_length.value_or(0.0), report_.finishing_flute_length);
+    finishing(UpperPart::kHolder, tool_.stickout.value_or(0.0), report_.finishing_stickout);
     for (const FinishClass kind : Enumerators<FinishClass>()) {
       if (kind != FinishClass::kUnwanted) report_.total_area += areas.area[kind];
     }
     report_.reachable_area += ReachableOf(areas);
+    report_.reachable_plan_area +=
+        areas.plan_area[FinishClass::kDone] + areas.plan_area[FinishClass::kAboveLimit];
     report_.leftover_above_limit_area += areas.area[FinishClass::kAboveLimit];
   }
 
   absl::Status JudgeMotion() {
-    report_.motion_ok = !shank_may_hit_;
+    report_.motion_ok = !upper_part_may_hit_;
     PM_RETURN_IF_ERROR(JudgeRapids());
     const MotionFigures figures = MeasureMotion(motion_, tool_);
     report_.tip_box = figures.tip_box;
@@ -393,7 +436,7 @@ class Verifier {
 
   // Steep descents faster than plunge feed must be clear of the stock.
   absl::Status JudgeDescents(const MotionFigures& figures) {
-    if (figures.steep_moves.empty()) return absl::OkStatus();
+    if (figures.steep_moves.empty() || params_.keep_feed) return absl::OkStatus();
     std::vector<PathSegment> moves = CollectMoves(motion_, MotionSet::kCut, offset_);
     std::erase_if(moves, [&](const PathSegment& s) {
       return !std::binary_search(figures.steep_moves.begin(), figures.steep_moves.end(), s.move);
@@ -445,12 +488,12 @@ class Verifier {
            fmt::format("the ball cuts {:.3g} mm deep into the stock at X{:.4f} Y{:.4f} Z{:.4f}; the limit is "
                        "{:.3g} mm",
                        deep.deepest, tip.x(), tip.y(), tip.z(), params_.depth_limit));
-    if (const auto shank = WideShankOf(tool_)) {
-      const Vec3 up(0, 0, shank->rise);
-      broken("SHANK_IN_STOCK",
-             FirstShankInStock(stock, CollectMoves(motion_, MotionSet::kSwept, offset_ + up), shank->radius,
-                               params_.depth_limit, run_),
-             "the shank stands in the stock beside or over the part");
+    for (const UpperCylinder& cylinder : UpperCylindersOf(tool_)) {
+      const Vec3 up(0, 0, cylinder.rise);
+      broken(cylinder.part == UpperPart::kShank ? "SHANK_IN_STOCK" : "HOLDER_IN_STOCK",
+             FirstShankInStock(stock, CollectMoves(motion_, MotionSet::kSwept, offset_ + up), cylinder.radius,
+                               cylinder.part == UpperPart::kShank ? params_.depth_limit : 0.0, run_),
+             fmt::format("the {} stands in the stock beside or over the part", Name(cylinder.part)));
     }
   }
 
@@ -460,8 +503,9 @@ class Verifier {
   const VerifyParams& params_;
   const RunContext& run_;
   double ball_ = 0.0, radius_ = 0.0;
-  bool shank_may_hit_ = false;  // on a rapid; it depends on the way that the control takes
-  Vec3 offset_ = Vec3::Zero();  // mm, from a tip in the program frame to the ball's centre
+  bool holder_may_hit_ = false;      // an avoided patch, or on a rapid
+  bool upper_part_may_hit_ = false;  // on a rapid; it depends on the way that the control takes
+  Vec3 offset_ = Vec3::Zero();       // mm, from a tip in the program frame to the ball's centre
   double chord_error_ = 0.0;
   std::vector<CellRect> roots_;
   std::vector<CellRect> wanted_;  // roots of the patches to be finished

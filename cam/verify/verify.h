@@ -58,6 +58,8 @@ struct VerifyParams {
   // The stock beside and over the part; null: none but the allowance.
   std::shared_ptr<const StockSolid> stock = nullptr;
   double depth_limit = 0.5;  // mm; feeds may cut so deep into the stock
+  // Steep descents may run at any feed: what they cut is no deeper than the allowance, or CUT_TOO_DEEP.
+  bool keep_feed = false;
   std::optional<Machine> machine = std::nullopt;
   // Parts with a finish of their own. Places in none of them are not to be finished. If empty, the whole
   // surface has the finish above.
@@ -88,19 +90,23 @@ inline constexpr std::array kLeftoverEdges = {0.25, 0.5, 0.75, 1.0};
 inline constexpr std::size_t kLeftoverClasses = kLeftoverEdges.size() + 1;
 
 // Why material stays uncut at a place.
-enum class UncutReason { kUndercut, kConcave, kFloor, kAvoided, kStrategy, kShank, kOutside };
+enum class UncutReason { kUndercut, kConcave, kFloor, kAvoided, kStrategy, kShank, kHolder, kOutside };
 constexpr UncutReason LastOf(UncutReason) { return UncutReason::kOutside; }
 
 struct VerifyReport {
   bool gouge_ok = false, finish_ok = false, motion_ok = false;  // [verification P1, P2, P3]
-  double max_gouge = 0.0;                                       // mm
+  std::optional<bool> holder_ok;  // whether the holder keeps off everything; absent if none is given
+  double max_gouge = 0.0;         // mm
   VerifyPlace max_gouge_at;
   double max_leftover = 0.0;  // mm, at reachable points
   VerifyPlace max_leftover_at;
   double reachable_area = 0.0, total_area = 0.0;  // mm^2
   // The reachable area in squares whose side is the flat step-over of its scallop; absent without a scallop.
   std::optional<double> reachable_squares;
-  EnumArray<UncutReason, double> unreachable_area{};     // mm^2
+  EnumArray<UncutReason, double> unreachable_area{};  // mm^2
+  // The same areas as seen along Z, in which upright walls count nothing.
+  double reachable_plan_area = 0.0;
+  EnumArray<UncutReason, double> unreachable_plan_area{};
   EnumArray<UncutReason, double> deepest_unreachable{};  // mm, deepest leftover
   EnumArray<UncutReason, VerifyPlace> deepest_unreachable_at;
   // The floor with which (almost) nothing would be unreachable for FLOOR: lowest tip, placed frame, mm. It is
@@ -110,6 +116,9 @@ struct VerifyReport {
   // that was found, plus half the tolerance. It is found to about 0.001 mm and rounded up to 0.001. Absent if
   // the shank blocks nothing.
   std::optional<double> finishing_flute_length;
+  // The stick-out with which the same holder would block (almost) nothing, mm, found and rounded in the same
+  // way. Absent if the holder blocks nothing.
+  std::optional<double> finishing_stickout;
   // Reachable area with a scallop by leftover class, mm^2, good to 1 % of their sum. Passes as far apart as
   // the scallop allows leave 50, 71 and 87 % of the area below the first three edges (the roots of the
   // edges). More area there means that passes are closer together than needed.
@@ -123,9 +132,9 @@ struct VerifyReport {
   double cut_length = 0.0, rapid_length = 0.0;  // mm, of moves that do not touch machine zero
   int feed_blocks = 0, arc_blocks = 0;  // lines of the program with such feed moves; the arcs among them
   // Errors: GOUGE, SHANK_GOUGE, LEFTOVER, RAPID_IN_STOCK, RAPID_DOG_LEG, OUTSIDE_BOUNDARY (feeds), ABOVE_TOP
-  // (feeds), OBSTACLE_HIT, CUT_TOO_DEEP, BEYOND_TRAVEL, FEED_BEYOND_RANGE,
-  // SHANK_IN_STOCK, BESIDE_PART, AVOID_MARGIN (of each of these codes at most 20, of different lines
-  // and places, the worst first), CONTROL_SMOOTHING, BELOW_FLOOR, STEEP_DESCENT, UNKNOWN_START,
+  // (feeds), OBSTACLE_HIT, CUT_TOO_DEEP, BEYOND_TRAVEL, FEED_BEYOND_RANGE, SHANK_IN_STOCK, HOLDER_GOUGE,
+  // HOLDER_IN_STOCK, HOLDER_HIT, BESIDE_PART, AVOID_MARGIN (of each of these codes at most 20, of different
+  // lines and places, the worst first), CONTROL_SMOOTHING, BELOW_FLOOR, STEEP_DESCENT, UNKNOWN_START,
   // FIRST_MOTION_NOT_UP, LAST_MOTION_NOT_UP, SPINDLE_STOPPED, SPINDLE_LEFT_ON, COOLANT_LEFT_ON.
   // Warnings: what the program leaves to the control's state (ProgramMotion::assumptions), and
   // PLUNGE_FEED_NOT_CHECKED.

@@ -15,7 +15,7 @@ absl::StatusOr<VerifyLimits> VerifyLimits::Make(const Surface& surface, const To
   limits.ball_ = BallRadius(tool);
   limits.tool_ = WidestRadius(tool);
   limits.leave_ = params.leave;
-  limits.shank_ = WideShankOf(tool);
+  limits.uppers_ = UpperCylindersOf(tool);
   const Containment& c = params.containment;
   const bool any = std::find(c.avoided.begin(), c.avoided.end(), true) != c.avoided.end();
   if (any && c.avoid_margin > params.leave) {
@@ -30,8 +30,8 @@ CenterLimits VerifyLimits::centers() const {
   limits.containment = containment_;
   limits.ball = ball_;
   limits.tool = tool_;
-  limits.shank = shank_;
-  limits.shank_keep = leave_;
+  limits.uppers = uppers_;
+  limits.upper_keep = leave_;
   if (!avoided_) return limits;
   limits.avoided = &*avoided_;
   limits.avoid_distance = ball_ + containment_->avoid_margin;

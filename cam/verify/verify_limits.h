@@ -28,7 +28,7 @@ class VerifyLimits {
   const Surface* surface_ = nullptr;
   const Containment* containment_ = nullptr;
   double ball_ = 0.0, tool_ = 0.0, leave_ = 0.0;
-  std::optional<WideShank> shank_;
+  std::vector<UpperCylinder> uppers_;
   std::optional<Surface> avoided_;
 };
 

@@ -11,6 +11,7 @@
 #include "clients/cli/input_file.h"
 #include "clients/cli/stock_option.h"
 #include "clients/cli/text.h"
+#include "clients/cli/tool_file.h"
 #include "proto/json/json_message.h"
 
 namespace patchmill::cli {
@@ -59,13 +60,22 @@ v1::Coolant MakeCoolant(const std::string& name) {
 // cutting speed; smaller ones have the same feed per turn relative to the diameter. The spindle speed never
 // exceeds 12000 rpm.
 void SetCuttingData(const OperationOptions& options, v1::Tool& tool) {
-  const double larger = std::min(1.0, 6.0 / options.tool_diameter);
-  const double smaller = std::min(1.0, options.tool_diameter / 6.0);
-  const double feed = options.feed.value_or(std::round(1200.0 * smaller));
-  tool.set_spindle_rpm(options.spindle.value_or(std::max(1.0, std::round(12000.0 * larger))));
-  tool.set_feed_mm_per_min(options.feed ? feed : std::max(1.0, feed));
-  tool.set_plunge_feed_mm_per_min(options.plunge_feed.value_or(std::max(1.0, std::round(feed / 3.0))));
-  tool.set_cutting_data_is_default(!options.spindle || !options.feed || !options.plunge_feed);
+  const double diameter = tool.ball_end().diameter_mm();
+  const double larger = std::min(1.0, 6.0 / diameter), smaller = std::min(1.0, diameter / 6.0);
+  if (options.spindle) tool.set_spindle_rpm(*options.spindle);
+  if (options.feed) tool.set_feed_mm_per_min(*options.feed);
+  if (options.plunge_feed) tool.set_plunge_feed_mm_per_min(*options.plunge_feed);
+  const bool speed = options.spindle || tool.spindle_rpm() > 0.0;
+  const bool feed = options.feed || tool.feed_mm_per_min() > 0.0;
+  const bool plunge = options.plunge_feed || tool.plunge_feed_mm_per_min() > 0.0;
+  if (!speed) tool.set_spindle_rpm(std::max(1.0, std::round(12000.0 * larger)));
+  if (!feed) tool.set_feed_mm_per_min(std::max(1.0, std::round(1200.0 * smaller)));
+  if (!plunge) {
+    const double third = feed ? tool.feed_mm_per_min() / 3.0 : std::round(1200.0 * smaller) / 3.0;
+    tool.set_plunge_feed_mm_per_min(std::max(1.0, std::round(third)));
+  }
+  const bool chosen = options.spindle && options.feed && options.plunge_feed;
+  tool.set_cutting_data_is_default(!speed || !feed || !plunge || (tool.cutting_data_is_default() && !chosen));
 }
 
 }  // namespace
@@ -124,7 +134,11 @@ void AddCommonOptions(CLI::App& app, CommonOptions& options) {
 }
 
 void AddSplitOptions(CLI::App& app, OperationOptions& options) {
-  AddNumber(app, "--tool-diameter", options.tool_diameter, "ball diameter, mm");
+  app.add_option(
+      "--tool", options.tool,
+      "FILE or FILE:NUMBER: a tool of a file; .json of Fusion, FreeCAD's tool bits (.fctb), LinuxCNC's "
+      "tool\ntables (.tbl), or Patchmill's own .json (docs/tool.json). Options go before what it states");
+  AddNumber(app, "--tool-diameter", options.tool_diameter, "ball diameter, mm; default 6, or that of --tool");
   AddNumber(app, "--scallop", options.scallop, "scallop (cusp) height: highest ridge between passes, mm");
   AddNumber(app, "--tolerance", options.tolerance, "whole error budget of the job, mm");
   AddNumber(app, "--leave", options.leave, "stock to leave along the normal, mm");
@@ -145,6 +159,12 @@ void AddShankOptions(CLI::App& app, ShankOptions& options) {
       "diameter above the flutes, mm; area that it blocks is left, SHANK; default: as wide as the ball");
   AddNumber(app, "--stickout", options.stickout,
             "length from tip to holder, mm; a warning if the job needs more; default: unknown");
+  app.add_option(
+      "--holder", options.holder,
+      "segments of the holder from below, apart by spaces: LENGTH,DIAMETER, or LENGTH,LOWER,UPPER for a "
+      "cone, mm.\nNeeds --stickout; area that only the holder blocks is left, HOLDER");
+  AddNumber(app, "--holder-clearance", options.holder_clearance,
+            "distance kept around the holder and below it, mm; default 0.5, or --allowance if that is more");
 }
 
 void AddSetupOptions(CLI::App& app, SetupOptions& options) {
@@ -158,8 +178,13 @@ void AddSetupOptions(CLI::App& app, SetupOptions& options) {
       ->delimiter(',')
       ->expected(3)
       ->check(kFinite);
-  app.add_option("--zero", options.zero, "program zero: X,Y,Z | origin | top-center | bottom-corner")
-      ->capture_default_str();
+  app.add_option("--zero", options.zero,
+                 "program zero: X,Y,Z | origin | top-center | bottom-corner; default origin, with a warning");
+  app.add_option(
+         "--wall-side", options.wall_sides,
+         "NAME=X,Y,Z: an upright wall that nothing else decides, and a point on the side where the tool "
+         "stands, in\ncoordinates of the placed model; once for each wall")
+      ->allow_extra_args(false);
 }
 
 void AddStockOptions(CLI::App& app, SetupOptions& options) {
@@ -203,7 +228,19 @@ absl::StatusOr<v1::Setup> MakeSetup(const SetupOptions& options) {
     setup.mutable_translation()->set_y_mm(options.translate[1]);
     setup.mutable_translation()->set_z_mm(options.translate[2]);
   }
-  if (options.zero == "origin") {
+  for (const std::string& text : options.wall_sides) {
+    const std::size_t equals = text.rfind('=');
+    if (equals == std::string::npos || equals == 0)
+      return absl::InvalidArgumentError(fmt::format("--wall-side {}; must be NAME=X,Y,Z", text));
+    absl::StatusOr<v1::Point3> air = ReadPoint(text.substr(equals + 1), "--wall-side");
+    if (!air.ok()) return air.status();
+    v1::WallSide& side = *setup.add_wall_sides();
+    side.set_patch_id(WireText(text.substr(0, equals), 200));
+    *side.mutable_air() = *std::move(air);
+  }
+  if (options.zero.empty()) {
+    setup.clear_zero();
+  } else if (options.zero == "origin") {
     setup.set_zero_anchor(v1::ZERO_ANCHOR_ORIGIN);
   } else if (options.zero == "top-center") {
     setup.set_zero_anchor(v1::ZERO_ANCHOR_TOP_CENTER);
@@ -242,19 +279,61 @@ v1::EdgeRule MakeEdgeRule(const std::string& name) {
   return v1::EDGE_RULE_STOP;
 }
 
-void SetShank(const ShankOptions& options, v1::Tool& tool) {
+namespace {
+
+absl::StatusOr<v1::HolderSegment> ReadSegment(const std::string& text) {
+  std::vector<double> numbers;
+  std::istringstream in(text);
+  bool good = !text.empty() && text.back() != ',';
+  for (std::string part; good && std::getline(in, part, ',');) {
+    numbers.push_back(0.0);
+    good = ReadFinite(part, numbers.back());
+  }
+  if (!good || numbers.size() < 2 || numbers.size() > 3) {
+    return absl::InvalidArgumentError(
+        fmt::format("--holder \"{}\": must be LENGTH,DIAMETER or LENGTH,LOWER,UPPER in mm", text));
+  }
+  v1::HolderSegment segment;
+  segment.set_length_mm(numbers[0]);
+  segment.set_lower_diameter_mm(numbers[1]);
+  segment.set_upper_diameter_mm(numbers.back());
+  return segment;
+}
+
+}  // namespace
+
+absl::Status SetShank(const ShankOptions& options, v1::Tool& tool) {
   if (options.flute_length) tool.set_flute_length_mm(*options.flute_length);
   if (options.shank_diameter) tool.set_shank_diameter_mm(*options.shank_diameter);
   if (options.stickout) tool.set_stickout_mm(*options.stickout);
+  if (!options.holder.empty()) tool.clear_holder();
+  std::istringstream segments(options.holder);
+  for (std::string text; segments >> text;) {
+    absl::StatusOr<v1::HolderSegment> segment = ReadSegment(text);
+    if (!segment.ok()) return segment.status();
+    *tool.add_holder() = *std::move(segment);
+  }
+  // A holder of a file that nobody says where it begins.
+  if (options.holder.empty() && !tool.has_stickout_mm()) tool.clear_holder();
+  if (options.holder_clearance) tool.set_holder_clearance_mm(*options.holder_clearance);
+  return absl::OkStatus();
 }
 
-v1::Operation MakeOperation(const OperationOptions& options) {
+absl::StatusOr<v1::Operation> MakeOperation(const OperationOptions& options) {
   v1::Operation op;
   v1::Tool& tool = *op.mutable_tool();
-  tool.set_number(options.tool_number);
-  tool.mutable_ball_end()->set_diameter_mm(options.tool_diameter);
-  tool.set_coolant(MakeCoolant(options.coolant));
-  SetShank(options.shank, tool);
+  if (!options.tool.empty()) {
+    absl::StatusOr<v1::Tool> read = ReadToolFile(options.tool);
+    if (!read.ok()) return read.status();
+    tool = *std::move(read);
+  }
+  tool.set_number_is_default(!options.tool_number && tool.number() == 0);
+  if (options.tool_number || tool.number() == 0) tool.set_number(options.tool_number.value_or(1));
+  if (options.tool_diameter || !tool.has_ball_end())
+    tool.mutable_ball_end()->set_diameter_mm(options.tool_diameter.value_or(kDefaultDiameter));
+  if (options.coolant != "off" || tool.coolant() == v1::COOLANT_UNSPECIFIED)
+    tool.set_coolant(MakeCoolant(options.coolant));
+  if (const absl::Status set = SetShank(options.shank, tool); !set.ok()) return set;
   SetCuttingData(options, tool);
   op.set_scallop_mm(options.scallop);
   op.set_tolerance_mm(options.tolerance);
@@ -277,9 +356,17 @@ v1::Operation MakeOperation(const OperationOptions& options) {
   if (options.lead_radius) op.mutable_leads()->set_radius_mm(*options.lead_radius);
   if (options.lead_sweep) op.mutable_leads()->set_sweep_deg(*options.lead_sweep);
   if (options.plunge_angle) op.mutable_feeds()->set_plunge_angle_deg(*options.plunge_angle);
+  if (options.keep_feed) op.mutable_feeds()->set_keep_on_passes(true);
   if (options.link_feed) op.mutable_feeds()->set_link_mm_per_min(*options.link_feed);
   if (options.lead_feed) op.mutable_feeds()->set_lead_mm_per_min(*options.lead_feed);
   op.set_accept_depth_mm(options.accept_depth);
+  if (options.max_unreached) {
+    if (!(*options.max_unreached >= 0.0 && *options.max_unreached <= 100.0)) {
+      return absl::InvalidArgumentError(
+          fmt::format("--max-unreached {:g}; must be in [0, 100] percent", *options.max_unreached));
+    }
+    op.set_max_unreached_fraction(0.01 * *options.max_unreached);
+  }
   if (options.floor) op.mutable_heights()->set_floor_z_mm(*options.floor);
   return op;
 }

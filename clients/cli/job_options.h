@@ -18,27 +18,34 @@ struct SetupOptions {
   double scale = 1.0;
   std::string up = "z";
   std::vector<double> translate;
-  std::string zero = "origin";
+  std::string zero;  // empty: not stated
   std::optional<double> stock_top;
   std::optional<double> allowance;
   std::string stock, machine;
+  std::vector<std::string> wall_sides;  // "NAME=X,Y,Z"
 };
 
 // The tool above its ball.
 struct ShankOptions {
-  std::optional<double> flute_length, shank_diameter, stickout;
+  std::optional<double> flute_length, shank_diameter, stickout, holder_clearance;
+  std::string holder;  // segments from below: "LENGTH,DIAMETER" or "LENGTH,LOWER,UPPER", apart by spaces
 };
 
+inline constexpr double kDefaultDiameter = 6.0;  // mm
+
 struct OperationOptions {
-  double tool_diameter = 6.0, scallop = 0.01, tolerance = 0.01, leave = 0.0, steep_angle = 45.0;
+  std::string tool;                     // "FILE" or "FILE:NUMBER"
+  std::optional<double> tool_diameter;  // mm; default that of the file, or kDefaultDiameter
+  double scallop = 0.01, tolerance = 0.01, leave = 0.0, steep_angle = 45.0;
   std::string strategy = "auto", direction = "climb", coolant = "off", edges = "stop";
   double zigzag_angle = 0.0, bend = 20.0, clearance = 5.0, detail = 0.5;
   bool one_way = false, spirals = false, auto_angle = false, no_border_passes = false;
-  bool no_round_lines = false, high_rapids = false, low_rapids = false;
+  bool no_round_lines = false, high_rapids = false, low_rapids = false, keep_feed = false;
   std::optional<double> approach_gap, lead_radius, lead_sweep, plunge_angle, link_feed, lead_feed;
   double accept_depth = 0.0;
+  std::optional<double> max_unreached;  // percent
   std::optional<double> floor, feed, plunge_feed, spindle;
-  int tool_number = 1;
+  std::optional<int> tool_number;
   ShankOptions shank;
 };
 
@@ -58,8 +65,8 @@ inline constexpr char kModelHelp[] =
     "model file: .step, .stp, .iges, .igs, .json, .pb, .bpt, .bv, .bez, .patches";
 
 absl::StatusOr<v1::Setup> MakeSetup(const SetupOptions& options);
-void SetShank(const ShankOptions& options, v1::Tool& tool);
-v1::Operation MakeOperation(const OperationOptions& options);
+absl::Status SetShank(const ShankOptions& options, v1::Tool& tool);
+absl::StatusOr<v1::Operation> MakeOperation(const OperationOptions& options);
 v1::Strategy MakeStrategy(const std::string& name);
 bool ReadFinite(const std::string& text, double& value);
 // Reads "X,Y,Z". INVALID_ARGUMENT names the option.

@@ -31,7 +31,8 @@ struct MillOptions {
   RegionChangeOptions regions;
   std::string model, program, report, preview, work_offset = "G54";
   PostOptions post;
-  bool no_arcs = false;
+  bool no_arcs = false, restart_points = false;
+  std::optional<int> line_numbers;
   int program_number = 1;
 };
 
@@ -52,7 +53,9 @@ absl::StatusOr<v1::GenerateProgramRequest> MakeRequest(const MillOptions& option
   *job.mutable_source() = *std::move(source);
   *job.mutable_setup() = *std::move(setup);
   v1::Operation& operation = *job.add_operations();
-  operation = MakeOperation(options.operation);
+  absl::StatusOr<v1::Operation> made = MakeOperation(options.operation);
+  if (!made.ok()) return made.status();
+  operation = *std::move(made);
   v1::Selection selection;
   if (const absl::Status set = SetLimits(options.limits, *job.mutable_setup(), selection); !set.ok())
     return set;
@@ -67,6 +70,8 @@ absl::StatusOr<v1::GenerateProgramRequest> MakeRequest(const MillOptions& option
   request.mutable_post()->set_dialect(std::move(post->dialect));
   request.mutable_post()->set_post_file(std::move(post->post_file));
   if (options.no_arcs) request.mutable_post()->set_arcs(false);
+  request.mutable_post()->set_restart_points(options.restart_points);
+  if (options.line_numbers) request.mutable_post()->set_line_number_step(*options.line_numbers);
   request.mutable_post()->set_program_number(options.program_number);
   if (options.post.control_deviation)
     request.mutable_post()->set_control_deviation_mm(*options.post.control_deviation);
@@ -155,11 +160,14 @@ std::string OverLeast(const v1::Report& report) {
                      100.0 * (report.cut_length_mm() / least - 1.0));
 }
 
-// Warnings that hold for nearly every job. The header of the program states them.
-bool IsAssumption(const v1::Diagnostic& finding) {
-  constexpr std::string_view kCodes[] = {"STOCK_ASSUMED", "STOCK_STATED", "LOW_RAPIDS", "HOLDER_NOT_CHECKED",
-                                         "DEFAULT_CUTTING_DATA"};
-  return std::find(std::begin(kCodes), std::end(kCodes), finding.code()) != std::end(kCodes);
+bool IsToCheckBeforeStart(const v1::Report& report, const v1::Diagnostic& finding) {
+  const auto& codes = report.check_before_start_codes();
+  return std::find(codes.begin(), codes.end(), finding.code()) != codes.end();
+}
+
+// Warnings that say no more than what the options say.
+bool RepeatsOptions(const v1::Diagnostic& finding) {
+  return finding.code() == "STOCK_STATED" || finding.code() == "LOW_RAPIDS";
 }
 
 // Whether there may be many findings of this code, one for each place.
@@ -167,17 +175,18 @@ bool OfManyPlaces(const v1::Diagnostic& finding) {
   return finding.where().has_patch_index() || finding.code() == "STEEP_LEAD";
 }
 
-// Prints the warnings. Those of the same code about single places are one line: the first, with the number
-// of the others.
-void PrintWarnings(const v1::Report& report, bool assumptions) {
+// Prints the warnings, but what is to be checked before the start. Those of the same code about single places
+// are one line: the first, with the number of the others.
+void PrintWarnings(const v1::Report& report, bool all) {
   std::map<std::string, int> of_patches;
   for (const v1::Diagnostic& finding : report.diagnostics()) {
     if (finding.severity() != v1::SEVERITY_INFO && OfManyPlaces(finding)) ++of_patches[finding.code()];
   }
   for (const v1::Diagnostic& finding : report.diagnostics()) {
-    const bool answers = finding.code() == "UP_CHOSEN" && assumptions;  // what the options left open
+    const bool answers = finding.code() == "UP_CHOSEN" && all;  // what the options left open
     if (answers) fmt::print(stderr, "  {}\n", Line(finding));
-    if (finding.severity() == v1::SEVERITY_INFO || (!assumptions && IsAssumption(finding))) continue;
+    if (finding.severity() == v1::SEVERITY_INFO || IsToCheckBeforeStart(report, finding)) continue;
+    if (!all && RepeatsOptions(finding)) continue;
     if (!OfManyPlaces(finding)) {
       fmt::print(stderr, "  {}\n", Line(finding));
     } else if (const auto first = of_patches.extract(finding.code())) {
@@ -224,6 +233,11 @@ void PrintSummary(const MillOptions& options, const v1::Report& report) {
                report.certificate_defect_count());
   }
   PrintWarnings(report, true);
+  if (!report.check_before_start_codes().empty()) fmt::print(stderr, "  assumed: check before start\n");
+  for (const v1::Diagnostic& finding : report.diagnostics()) {
+    if (IsToCheckBeforeStart(report, finding))
+      fmt::print(stderr, "    {}: {}\n", finding.code(), finding.message());
+  }
 }
 
 absl::Status Run(const MillOptions& options, InterruptWatch& watch) {
@@ -295,7 +309,7 @@ void AddOperationOptions(CLI::App& app, OperationOptions& op) {
   app.add_option("--coolant", op.coolant, "coolant while cutting")
       ->check(CLI::IsMember({"off", "flood", "mist", "air"}))
       ->capture_default_str();
-  app.add_option("--tool-number", op.tool_number, "number of the T word")->capture_default_str();
+  app.add_option("--tool-number", op.tool_number, "number of the T word; default 1, or that of --tool");
   AddShankOptions(app, op.shank);
 }
 
@@ -308,6 +322,9 @@ void AddMotionOptions(CLI::App& app, OperationOptions& op) {
   app.add_flag("--low-rapids", op.low_rapids, "without effect: rapids are low where the stock is stated");
   AddNumber(app, "--accept-depth", op.accept_depth,
             "how deep passes may cut into the --stock, mm, where that is more than --allowance");
+  AddNumber(app, "--max-unreached", op.max_unreached,
+            "largest share of what looks up that may stay uncut because the ball does not fit, percent; "
+            "default 50");
   AddNumber(app, "--approach-gap", op.approach_gap,
             "distance from the stock at which a rapid changes to feed, mm; default 1");
   AddNumber(app, "--lead-radius", op.lead_radius,
@@ -315,6 +332,9 @@ void AddMotionOptions(CLI::App& app, OperationOptions& op) {
   AddNumber(app, "--lead-sweep", op.lead_sweep, "sweep of these arcs, degrees, 10 to 90; default 90");
   AddNumber(app, "--lead-feed", op.lead_feed, "feed of leads, mm/min; default --feed");
   AddNumber(app, "--link-feed", op.link_feed, "feed of links between passes, mm/min; default --feed");
+  app.add_flag(
+      "--keep-feed", op.keep_feed,
+      "passes keep the feed on steep descents: they cut no deeper than --allowance, which must be given");
   AddNumber(app, "--plunge-angle", op.plunge_angle,
             "descents steeper than this run at plunge feed, degrees, 1 to 30; default 30");
 }
@@ -338,6 +358,11 @@ Command AddMill(CLI::App& app) {
   AddPostOptions(app, "--post", options->post);
   app.add_flag("--no-arcs", options->no_arcs,
                "straight moves only (G1), also where the dialect has arcs (G2, G3)");
+  app.add_flag("--restart-points", options->restart_points,
+               "write places where the control may be started again: from above, with spindle and modes");
+  app.add_option("--line-numbers", options->line_numbers,
+                 "step of the line numbers (N10, N20, ...); 0: none; default as the control has them")
+      ->check(CLI::Range(0, 1000));
   app.add_option("--program-number", options->program_number,
                  "number of the program, for dialects that number their programs")
       ->check(CLI::Range(1, 9999))

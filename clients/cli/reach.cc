@@ -31,7 +31,9 @@ absl::StatusOr<v1::TabulateReachRequest> MakeRequest(const ReachOptions& options
   v1::Job& job = *request.mutable_job();
   *job.mutable_source() = *std::move(source);
   *job.mutable_setup() = *std::move(setup);
-  *job.add_operations() = MakeOperation(options.operation);
+  absl::StatusOr<v1::Operation> operation = MakeOperation(options.operation);
+  if (!operation.ok()) return operation.status();
+  *job.add_operations() = *std::move(operation);
   job.set_name(WireText(std::filesystem::path(options.model).filename().string(), 100));
   for (const double diameter : options.diameters) request.add_tool_diameters_mm(diameter);
   request.set_max_threads(options.common.threads);

@@ -40,7 +40,9 @@ absl::StatusOr<v1::SplitRegionsRequest> MakeRequest(const RegionsOptions& option
   *job.mutable_source() = *std::move(source);
   *job.mutable_setup() = *std::move(setup);
   v1::Operation& operation = *job.add_operations();
-  operation = MakeOperation(options.operation);
+  absl::StatusOr<v1::Operation> made = MakeOperation(options.operation);
+  if (!made.ok()) return made.status();
+  operation = *std::move(made);
   v1::Selection selection;
   if (const absl::Status set = SetLimits(options.limits, *job.mutable_setup(), selection); !set.ok())
     return set;

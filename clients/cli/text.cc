@@ -116,6 +116,8 @@ std::string UnreachableLine(const v1::Report& report) {
     if (part.has_finishing_flute_length_mm()) {
       text += fmt::format("; --flute-length {:.3f} finishes it", part.finishing_flute_length_mm());
     }
+    if (part.has_finishing_stickout_mm())
+      text += fmt::format("; --stickout {:.3f} finishes it", part.finishing_stickout_mm());
     text += ")";
   }
   return text;

@@ -15,6 +15,7 @@
 #include "clients/cli/progress_bar.h"
 #include "clients/cli/region_options.h"
 #include "clients/cli/text.h"
+#include "clients/cli/tool_file.h"
 #include "patchmill/v1/toolpath_service.grpc.pb.h"
 
 namespace patchmill::cli {
@@ -31,6 +32,7 @@ struct VerifyOptions {
   std::vector<std::string> tools;
   double tolerance = 0.01, leave = 0.0, zigzag_angle = 0.0, steep_angle = 45.0;
   double detail = 0.5, accept_depth = 0.0;
+  bool keep_feed = false;
   std::optional<double> scallop, floor, plunge_feed, machine_z_safe;
   bool no_finish = false;
   std::vector<std::string> assume;
@@ -38,16 +40,17 @@ struct VerifyOptions {
   ShankOptions shank;
 };
 
-// "2=6": tool 2 has a ball of 6 mm.
+// "2=6": tool 2 has a ball of 6 mm. Else a tool of a file.
 absl::StatusOr<v1::Tool> ReadTool(const std::string& text) {
   const std::size_t equals = text.find('=');
   double number = 0.0, diameter = 0.0;
+  if (!ReadFinite(text.substr(0, equals), number)) return ReadToolFile(text);
   const bool good = equals != std::string::npos && ReadFinite(text.substr(0, equals), number) &&
                     ReadFinite(text.substr(equals + 1), diameter) && number >= 1.0 && number <= 99999.0 &&
                     number == std::floor(number);
   if (!good) {
-    return absl::InvalidArgumentError(
-        fmt::format("--tool {}; must be NUMBER=DIAMETER, as 2=6, with a number from 1 to 99999", text));
+    return absl::InvalidArgumentError(fmt::format(
+        "--tool {}; must be NUMBER=DIAMETER, as 2=6, with a number from 1 to 99999, or FILE[:NUMBER]", text));
   }
   v1::Tool tool;
   tool.set_number(static_cast<int>(number));
@@ -65,7 +68,7 @@ absl::Status SetTools(const VerifyOptions& options, v1::VerifyProgramRequest& re
   if (request.tools().empty())
     return absl::InvalidArgumentError("--tool-diameter is missing; set it, or --tool for each tool");
   for (v1::Tool& tool : *request.mutable_tools()) {
-    SetShank(options.shank, tool);
+    if (const absl::Status set = SetShank(options.shank, tool); !set.ok()) return set;
     if (options.plunge_feed) tool.set_plunge_feed_mm_per_min(*options.plunge_feed);
   }
   return absl::OkStatus();
@@ -100,6 +103,7 @@ absl::StatusOr<v1::VerifyProgramRequest> MakeRequest(const VerifyOptions& option
   if (options.scallop) request.set_scallop_mm(*options.scallop);
   request.set_stock_to_leave_mm(options.leave);
   request.set_accept_depth_mm(options.accept_depth);
+  request.set_keep_feed_on_passes(options.keep_feed);
   if (options.floor) request.set_floor_z_mm(*options.floor);
   request.set_strategy(MakeStrategy(options.strategy));
   request.set_zigzag_angle_deg(options.zigzag_angle);
@@ -219,8 +223,10 @@ Command AddVerify(CLI::App& app) {
       ->required();
   auto* diameter = AddNumber(app, "--tool-diameter", options->tool_diameter,
                              "ball diameter of the one tool of the program, mm; required without --tool");
-  app.add_option("--tool", options->tools,
-                 "T=D: number and ball diameter (mm) of a tool; once for each tool of the program")
+  app.add_option(
+         "--tool", options->tools,
+         "T=D: number and ball diameter (mm) of a tool, or FILE[:NUMBER] as for mill; once for each tool of "
+         "the program")
       ->excludes(diameter);
   AddShankOptions(app, options->shank);
   AddNumber(app, "--plunge-feed", options->plunge_feed,
@@ -250,6 +256,8 @@ Command AddVerify(CLI::App& app) {
   AddReadingOptions(app, options->reading);
   AddSetupOptions(app, options->setup);
   AddStockOptions(app, options->setup);
+  app.add_flag("--keep-feed", options->keep_feed,
+               "feeds may descend steeply at any feed, where --allowance or --stock states the stock");
   AddNumber(app, "--accept-depth", options->accept_depth,
             "how deep feeds may cut into the --stock, mm, where that is more than --allowance");
   AddPostOptions(app, "--dialect,--post", options->post);

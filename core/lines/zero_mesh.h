@@ -17,7 +17,7 @@
 
 namespace patchmill {
 
-inline constexpr int kMaxZeroFields = 10;
+inline constexpr int kMaxZeroFields = 11;
 using ZeroFieldBits = std::uint16_t;  // bit k: field k
 
 struct ZeroVertex {

@@ -347,4 +347,10 @@ void SetAirSides(const AirSides& sides, std::vector<Piece>& pieces) {
   }
 }
 
+void SetAirSide(PatchId patch, int side, std::vector<Piece>& pieces) {
+  for (Piece& piece : pieces) {
+    if (piece.patch == patch) piece.sides.air_side = side * OrientationOf(piece);
+  }
+}
+
 }  // namespace patchmill

@@ -49,4 +49,8 @@ absl::StatusOr<AirSides> FindAirSides(const Surface& surface, const RunContext& 
 // Writes the air side of each piece, in the piece's own parameters, and whether the piece overhangs.
 void SetAirSides(const AirSides& sides, std::vector<Piece>& pieces);
 
+// Writes the air side of the pieces of one patch: 1 for the side of du x dv in its own parameters, -1 for the
+// other.
+void SetAirSide(PatchId patch, int side, std::vector<Piece>& pieces);
+
 }  // namespace patchmill

@@ -336,6 +336,8 @@ v1::UnreachableReason ToProto(UncutReason value) {
       return v1::UNREACHABLE_REASON_AVOIDED;
     case UncutReason::kStrategy:
       return v1::UNREACHABLE_REASON_STRATEGY;
+    case UncutReason::kHolder:
+      return v1::UNREACHABLE_REASON_HOLDER;
     case UncutReason::kShank:
       return v1::UNREACHABLE_REASON_SHANK;
     case UncutReason::kOutside:
@@ -368,6 +370,8 @@ v1::Outcome ToProto(Outcome value) {
       return v1::OUTCOME_VERIFICATION_FAILED;
     case Outcome::kNeedsRoughing:
       return v1::OUTCOME_NEEDS_ROUGHING;
+    case Outcome::kTooMuchUnreached:
+      return v1::OUTCOME_TOO_MUCH_UNREACHED;
   }
   return v1::OUTCOME_UNSPECIFIED;
 }

@@ -67,6 +67,7 @@ void ReadFeeds(const v1::Feeds& proto, const std::string& at, Operation& op, Fie
             fmt::format("in [{:g}, {:g}]", limits::kMinFeed, limits::kMaxFeed));
     return value;
   };
+  op.keep_feed = proto.keep_on_passes();
   if (proto.has_link_mm_per_min()) op.link_feed = feed("link_mm_per_min", proto.link_mm_per_min());
   if (proto.has_lead_mm_per_min()) op.lead_feed = feed("lead_mm_per_min", proto.lead_mm_per_min());
 }
@@ -81,6 +82,17 @@ void CheckSpindle(const Tool& tool, const Machine& machine, const std::string& a
 void ReadPost(const v1::Post& proto, Job& job, FieldErrors& errors) {
   job.dialect = ReadDialect(proto.dialect(), proto.post_file(), "post.", errors);
   job.arcs = !proto.has_arcs() || proto.arcs();
+  job.restart_points = proto.restart_points();
+  if (job.restart_points && job.dialect.restart.empty()) {
+    errors.Add("post.restart_points",
+               fmt::format("= true; the dialect {} has no section [restart]", job.dialect.name));
+  }
+  if (proto.has_line_number_step()) {
+    const int step = proto.line_number_step();
+    Require(errors, "post.line_number_step", step, step >= 0 && step <= kMaxLineNumberStep,
+            fmt::format("in [0, {}]", kMaxLineNumberStep));
+    job.line_number_step = step;
+  }
   if (proto.unit() != v1::LENGTH_UNIT_UNSPECIFIED && proto.unit() != v1::LENGTH_UNIT_MILLIMETER) {
     errors.NotYet("post.unit", "programs are in millimetres");
   }
@@ -201,6 +213,11 @@ Operation FromProto(const v1::Operation& proto, std::string_view at, FieldErrors
   ReadLeads(proto.leads(), At(at, "leads"), op, errors);
   ReadFeeds(proto.feeds(), At(at, "feeds"), op, errors);
   op.accept_depth = ReadAcceptDepth(proto.accept_depth_mm(), at, errors);
+  if (proto.has_max_unreached_fraction()) {
+    op.max_unreached = proto.max_unreached_fraction();
+    Require(errors, At(at, "max_unreached_fraction"), op.max_unreached,
+            op.max_unreached >= 0.0 && op.max_unreached <= 1.0, "in [0, 1]");
+  }
   ReadOverrides(proto.regions_sha256(), proto.region_overrides(), at, op, errors);
   return op;
 }
@@ -215,8 +232,11 @@ Job FromProto(const v1::Job& proto, const v1::Post& post, std::string_view at, F
     job.operation = FromProto(proto.operations(0), path, errors);
     if (job.setup.machine) CheckSpindle(job.operation.tool, *job.setup.machine, At(path, "tool"), errors);
     job.default_cutting_data = proto.operations(0).tool().cutting_data_is_default();
+    job.default_tool_number = proto.operations(0).tool().number_is_default();
     // The stock to leave is part of the allowance.
     if (!job.setup.allowance_stated) job.setup.allowance = std::max(job.setup.allowance, job.operation.leave);
+    if (!proto.operations(0).tool().has_holder_clearance_mm())
+      job.operation.tool.holder_clearance = std::max(kDefaultHolderClearance, job.setup.allowance);
     if (job.setup.allowance < job.operation.leave) {
       errors.Add(At(at, "setup.stock.allowance_mm"),
                  fmt::format("= {:.10g}; must be at least stock_to_leave_mm = {:.10g}", job.setup.allowance,
@@ -235,6 +255,7 @@ v1::Operation ToProto(const Job& job, const Operation& op) {
   v1::Operation proto;
   *proto.mutable_tool() = ToProto(op.tool);
   proto.mutable_tool()->set_cutting_data_is_default(job.default_cutting_data);
+  proto.mutable_tool()->set_number_is_default(job.default_tool_number);
   proto.set_scallop_mm(op.scallop);
   proto.set_tolerance_mm(op.tolerance);
   proto.set_stock_to_leave_mm(op.leave);
@@ -264,9 +285,11 @@ v1::Operation ToProto(const Job& job, const Operation& op) {
   if (op.lead_radius) proto.mutable_leads()->set_radius_mm(*op.lead_radius);
   proto.mutable_leads()->set_sweep_deg(Degrees(op.lead_sweep));
   proto.mutable_feeds()->set_plunge_angle_deg(Degrees(op.plunge_angle));
+  if (op.keep_feed) proto.mutable_feeds()->set_keep_on_passes(true);
   if (op.link_feed) proto.mutable_feeds()->set_link_mm_per_min(*op.link_feed);
   if (op.lead_feed) proto.mutable_feeds()->set_lead_mm_per_min(*op.lead_feed);
   proto.set_accept_depth_mm(op.accept_depth);
+  proto.set_max_unreached_fraction(op.max_unreached);
   const Selection& s = op.selection;
   if (!s.patches.empty() || !s.avoid.empty() || !s.boundary.empty()) {
     *proto.mutable_selection() = ToProto(s);
@@ -293,6 +316,8 @@ v1::Post PostToProto(const Job& job) {
   proto.set_program_number(job.program_number);
   if (job.control_deviation) proto.set_control_deviation_mm(*job.control_deviation);
   proto.set_arcs(job.arcs);
+  proto.set_restart_points(job.restart_points);
+  proto.set_line_number_step(job.line_number_step.value_or(job.dialect.line_number_step));
   proto.set_unit(v1::LENGTH_UNIT_MILLIMETER);
   proto.set_work_offset(job.work_offset);
   return proto;

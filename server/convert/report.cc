@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "cam/plan/job_findings.h"
 #include "cam/post/program_assumptions.h"
 #include "cam/region/map/regions_digest.h"
 #include "server/convert/enums.h"
@@ -77,7 +78,7 @@ v1::Place PlaceToProto(const VerifyPlace& place, const Vec3& zero) {
 constexpr UnreachableReason kReasons[] = {UnreachableReason::kUndercut, UnreachableReason::kConcave,
                                           UnreachableReason::kFloor,    UnreachableReason::kAvoided,
                                           UnreachableReason::kStrategy, UnreachableReason::kShank,
-                                          UnreachableReason::kOutside};
+                                          UnreachableReason::kHolder,   UnreachableReason::kOutside};
 
 // Without a program nothing was verified. The unreachable areas then come from the regions.
 void FillUnreachableFromRegions(const JobReport& from, const Vec3& zero, v1::Report* report) {
@@ -291,7 +292,7 @@ void FillFromVerifier(const VerifyReport& verify, const Vec3& zero, bool scallop
   report->set_gouge_check(State(verify.gouge_ok));
   report->set_finish_check(scallop_judged ? State(verify.finish_ok) : v1::CHECK_STATE_NOT_CHECKED);
   report->set_motion_check(State(verify.motion_ok));
-  report->set_holder_check(v1::CHECK_STATE_NOT_CHECKED);
+  report->set_holder_check(verify.holder_ok ? State(*verify.holder_ok) : v1::CHECK_STATE_NOT_CHECKED);
   const bool in_stock = std::any_of(verify.findings.begin(), verify.findings.end(), [](const Diagnostic& d) {
     return d.code == "RAPID_IN_STOCK" || d.code == "RAPID_DOG_LEG";
   });
@@ -324,6 +325,9 @@ void FillFromVerifier(const VerifyReport& verify, const Vec3& zero, bool scallop
     if (reason == UncutReason::kShank && verify.finishing_flute_length) {
       part.set_finishing_flute_length_mm(*verify.finishing_flute_length);
     }
+    if (reason == UncutReason::kHolder && verify.finishing_stickout) {
+      part.set_finishing_stickout_mm(*verify.finishing_stickout);
+    }
   }
   report->set_unreachable_area_mm2(unreachable);
   if (scallop_judged) AddLeftoverClasses(verify, report);
@@ -351,6 +355,8 @@ v1::Report ToProto(const JobReport& from, const Job& job, const Resolved& resolv
     FillFromVerifier(from.verify, zero, /*scallop_judged=*/true, &report);
   }
   *report.mutable_setup_sheet() = ToProto(resolved, job);
+  for (const Diagnostic& d : from.diagnostics)
+    if (IsToCheckBeforeStart(d.code)) report.add_check_before_start_codes(d.code);
   if (std::isfinite(from.min_concave_radius)) report.set_min_concave_radius_mm(from.min_concave_radius);
   report.set_estimated_time_s(Number(from.times ? from.times->total : from.motion.time));
   report.set_time_basis(from.times ? "accelerations" : "feeds only");

@@ -46,6 +46,22 @@ void ReadObstacles(const google::protobuf::RepeatedPtrField<v1::Obstacle>& list,
   }
 }
 
+void ReadWallSides(const google::protobuf::RepeatedPtrField<v1::WallSide>& list, std::string_view at,
+                   Setup& setup, FieldErrors& errors) {
+  if (list.size() > limits::kMaxObstacles) {
+    errors.Add(At(at, "wall_sides"),
+               fmt::format("has {} elements; must have at most {}", list.size(), limits::kMaxObstacles));
+    return;
+  }
+  for (int i = 0; i < list.size(); ++i) {
+    const std::string path = fmt::format("{}[{}]", At(at, "wall_sides"), i);
+    if (list[i].patch_id().empty()) errors.Missing(At(path, "patch_id"));
+    RequireBytes(errors, At(path, "patch_id"), list[i].patch_id(), limits::kMaxIdBytes);
+    if (!list[i].has_air()) errors.Missing(At(path, "air"));
+    setup.wall_sides.push_back({list[i].patch_id(), ReadPoint(list[i].air(), At(path, "air"), errors)});
+  }
+}
+
 void CheckCuttingData(const v1::Tool& proto, std::string_view at, CuttingData needed, FieldErrors& errors) {
   const auto check = [&](const char* name, double value, double least, double most) {
     if (needed == CuttingData::kOptional && value == 0.0) return;
@@ -55,6 +71,34 @@ void CheckCuttingData(const v1::Tool& proto, std::string_view at, CuttingData ne
   check("spindle_rpm", proto.spindle_rpm(), limits::kMinRpm, limits::kMaxRpm);
   check("feed_mm_per_min", proto.feed_mm_per_min(), limits::kMinFeed, limits::kMaxFeed);
   check("plunge_feed_mm_per_min", proto.plunge_feed_mm_per_min(), limits::kMinFeed, limits::kMaxFeed);
+}
+
+void ReadHolder(const v1::Tool& proto, std::string_view at, Tool& tool, FieldErrors& errors) {
+  if (proto.holder_size() > static_cast<int>(kMaxHolderSegments)) {
+    errors.Add(At(at, "holder"),
+               fmt::format("has {} segments; must be at most {}", proto.holder_size(), kMaxHolderSegments));
+    return;
+  }
+  for (int k = 0; k < proto.holder_size(); ++k) {
+    const v1::HolderSegment& segment = proto.holder(k);
+    const auto read = [&](const char* name, double value) {
+      const std::string field = fmt::format("holder[{}].{}", k, name);
+      Require(errors, At(at, field), value, value > 0.0 && value <= limits::kMaxCoordinateMm,
+              fmt::format("in (0, {}]", limits::kMaxCoordinateMm));
+      return value;
+    };
+    tool.holder.push_back({read("length_mm", segment.length_mm()),
+                           read("lower_diameter_mm", segment.lower_diameter_mm()),
+                           read("upper_diameter_mm", segment.upper_diameter_mm())});
+  }
+  if (proto.has_holder_clearance_mm()) {
+    tool.holder_clearance = proto.holder_clearance_mm();
+    Require(errors, At(at, "holder_clearance_mm"), tool.holder_clearance,
+            tool.holder_clearance >= 0.0 && tool.holder_clearance <= 100.0, "in [0, 100]");
+  }
+  if (!tool.holder.empty() && !proto.has_stickout_mm()) {
+    errors.Add(At(at, "stickout_mm"), "is missing; required with a holder: it says where that begins");
+  }
 }
 
 }  // namespace
@@ -101,9 +145,11 @@ Setup FromProto(const v1::Setup& proto, std::string_view at, FieldErrors& errors
     setup.zero_point = ReadPoint(proto.program_zero(), At(at, "program_zero"), errors);
   } else {
     setup.zero = FromProto(proto.zero_anchor(), At(at, "zero_anchor"), errors);
+    setup.zero_stated = proto.zero_anchor() != v1::ZERO_ANCHOR_UNSPECIFIED;
   }
   ReadStock(proto.stock(), At(at, "stock"), setup, errors);
   ReadObstacles(proto.obstacles(), at, setup, errors);
+  ReadWallSides(proto.wall_sides(), at, setup, errors);
   if (proto.has_machine()) setup.machine = FromProto(proto.machine(), At(at, "machine"), errors);
   return setup;
 }
@@ -139,8 +185,7 @@ Tool FromProto(const v1::Tool& proto, std::string_view at, CuttingData cutting_d
                            "than the cutter",
                            *tool.shank_diameter));
   }
-  if (!proto.holder().empty())
-    errors.NotYet(At(at, "holder"), "leave it empty; the report states the stick-out that is needed");
+  ReadHolder(proto, at, tool, errors);
   CheckCuttingData(proto, at, cutting_data, errors);
   tool.spindle_rpm = proto.spindle_rpm();
   tool.feed = proto.feed_mm_per_min();
@@ -158,12 +203,19 @@ v1::Setup ToProto(const Setup& setup) {
   }
   proto.set_scale(setup.placement.scale);
   *proto.mutable_translation() = ToProto(setup.placement.translation);
-  if (setup.zero == Setup::Zero::kPoint) {
+  if (!setup.zero_stated) {
+    proto.set_zero_anchor(v1::ZERO_ANCHOR_UNSPECIFIED);
+  } else if (setup.zero == Setup::Zero::kPoint) {
     *proto.mutable_program_zero() = ToProto(setup.zero_point);
   } else {
     proto.set_zero_anchor(ToProto(setup.zero));
   }
   *proto.mutable_stock() = StockToProto(setup);
+  for (const WallSide& side : setup.wall_sides) {
+    v1::WallSide& out = *proto.add_wall_sides();
+    out.set_patch_id(Utf8(side.name));
+    *out.mutable_air() = ToProto(side.air);
+  }
   if (setup.machine) *proto.mutable_machine() = ToProto(*setup.machine);
   for (const ObstacleOutline& o : setup.obstacles) {
     v1::Obstacle& obstacle = *proto.add_obstacles();
@@ -183,6 +235,13 @@ v1::Tool ToProto(const Tool& tool) {
   if (tool.flute_length) proto.set_flute_length_mm(*tool.flute_length);
   if (tool.shank_diameter) proto.set_shank_diameter_mm(*tool.shank_diameter);
   if (tool.stickout) proto.set_stickout_mm(*tool.stickout);
+  for (const HolderSegment& segment : tool.holder) {
+    v1::HolderSegment& out = *proto.add_holder();
+    out.set_length_mm(segment.length);
+    out.set_lower_diameter_mm(segment.lower_diameter);
+    out.set_upper_diameter_mm(segment.upper_diameter);
+  }
+  if (!tool.holder.empty()) proto.set_holder_clearance_mm(tool.holder_clearance);
   proto.set_spindle_rpm(tool.spindle_rpm);
   proto.set_feed_mm_per_min(tool.feed);
   proto.set_plunge_feed_mm_per_min(tool.plunge_feed);

@@ -98,6 +98,12 @@ Job ReadJob(const v1::VerifyProgramRequest& request, const std::vector<Tool>& to
             fmt::format("in [{}, {}]", -kMost, kMost));
   }
   op.accept_depth = ReadAcceptDepth(request.accept_depth_mm(), "", errors);
+  op.keep_feed = request.keep_feed_on_passes();
+  if (op.keep_feed && !StockIsStated(job.setup))
+    errors.Add("keep_feed_on_passes", "= true; needs the stock to be stated (setup.stock)");
+  if (op.keep_feed && op.accept_depth > job.setup.allowance)
+    errors.Add("keep_feed_on_passes",
+               "= true; must be false where accept_depth_mm is more than the allowance");
   op.selection = FromProto(request.selection(), "selection", errors);
   op.strategy = FromProto(request.strategy(), "strategy", errors);
   Require(errors, "zigzag_angle_deg", request.zigzag_angle_deg(),
@@ -325,6 +331,22 @@ bool SendFile(const char* name, const char* media_type, std::string_view bytes, 
   return true;
 }
 
+// The allowance may stand on the surface beside the holder.
+void CheckHolderClearance(const v1::VerifyProgramRequest& request, double allowance, std::vector<Tool>& tools,
+                          FieldErrors& errors) {
+  for (int k = 0; k < static_cast<int>(tools.size()); ++k) {
+    Tool& tool = tools[static_cast<std::size_t>(k)];
+    if (tool.holder.empty()) continue;
+    if (!request.tools(k).has_holder_clearance_mm())
+      tool.holder_clearance = std::max(tool.holder_clearance, allowance);
+    if (tool.holder_clearance < allowance) {
+      errors.Add(fmt::format("tools[{}].holder_clearance_mm", k),
+                 fmt::format("= {:.10g}; must be at least setup.stock.allowance_mm = {:.10g}",
+                             tool.holder_clearance, allowance));
+    }
+  }
+}
+
 }  // namespace
 
 absl::Status HandleVerifyProgram(const Call& call, const v1::VerifyProgramRequest& request,
@@ -335,6 +357,7 @@ absl::Status HandleVerifyProgram(const Call& call, const v1::VerifyProgramReques
   VerifyJob what;
   what.tools = ReadTools(request, errors);
   what.job = ReadJob(request, what.tools, errors);
+  CheckHolderClearance(request, what.job.setup.allowance, what.tools, errors);
   PM_RETURN_IF_ERROR(errors.ToStatus());
   const auto beat = [&](std::string_view stage, double fraction) {
     Response response;

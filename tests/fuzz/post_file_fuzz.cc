@@ -25,6 +25,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   params.dialect = *dialect;
   params.clearance_z = 20.0;
   params.header = {"part: any (part)"};
+  params.sections = {{0, "first", 0, false, false}, {3, "last", 0, true, true}};
+  params.restart_points = !dialect->restart.empty();
   const auto program = WriteProgram(path, tool, params);
   if (!program.ok()) __builtin_trap();
   (void)ReadProgram(*program, {.max_moves = 1000, .dialect = *dialect});

@@ -82,7 +82,9 @@ TEST_F(Cli, MillWritesProgramReportAndPicture) {
   EXPECT_THAT(Slurp(out_ / "part.json"), HasSubstr("\"unreachable_area_mm2\": 0"));
   EXPECT_THAT(Slurp(out_ / "part.svg"), HasSubstr("<svg"));
   EXPECT_THAT(run.out, IsEmpty());
-  EXPECT_THAT(run.err, AllOf(HasSubstr("COMPLETE, verified"), HasSubstr("DEFAULT_CUTTING_DATA")));
+  EXPECT_THAT(run.err, AllOf(HasSubstr("COMPLETE, verified"), HasSubstr("assumed: check before start"),
+                             HasSubstr("DEFAULT_CUTTING_DATA"), HasSubstr("TOOL_NUMBER_ASSUMED"),
+                             HasSubstr("ZERO_ASSUMED"), HasSubstr("STOCK_ASSUMED")));
   EXPECT_THAT(run.err, Not(HasSubstr("\r"))) << "a progress bar in a pipe";
 }
 
@@ -112,7 +114,8 @@ TEST_F(Cli, TheShankIsJudgedAndTheStickoutWarnedOf) {
 
 // An area that only the shank blocks is reported with the flute length that would finish it.
 TEST_F(Cli, AWideShankIsPlannedAround) {
-  const Finished blunt = Mill(bump_, {"--flute-length", "0.5", "--shank-diameter", "30"});
+  const Finished blunt =
+      Mill(bump_, {"--flute-length", "0.5", "--shank-diameter", "30", "--max-unreached", "100"});
   ASSERT_EQ(blunt.status, 0) << blunt.err;
   std::smatch named;
   ASSERT_TRUE(std::regex_search(blunt.err, named, std::regex("SHANK .*--flute-length ([0-9.]+) finishes it")))
@@ -484,6 +487,53 @@ TEST_F(Cli, StockThatIsTooDeepEndsTheJob) {
     EXPECT_EQ(refused.status, 2) << wrong << refused.err;
     EXPECT_THAT(refused.err, HasSubstr("--stock")) << wrong;
   }
+}
+
+TEST_F(Cli, TheHolderIsJudged) {
+  const std::vector<std::string> holder = {"--stickout", "1", "--holder", "10,40 20,40,60"};
+  std::vector<std::string> whatever = holder;
+  whatever.insert(whatever.end(), {"--max-unreached", "100"});
+  const Finished mill = Mill(bump_, whatever);
+  EXPECT_EQ(mill.status, 0) << mill.err;
+  EXPECT_THAT(mill.err + mill.out, AllOf(HasSubstr("HOLDER"), HasSubstr("--stickout"),
+                                         ::testing::Not(HasSubstr("HOLDER_NOT_CHECKED"))));
+  ASSERT_EQ(Mill(bump_).status, 0);
+  std::vector<std::string> verify = {
+      "verify",  bump_, out_ / "part.ngc", "--tool-diameter", "6", "--tolerance", "0.02",
+      "--floor", "-1",  "--no-finish"};
+  EXPECT_EQ(Patchmill(verify).status, 0);
+  verify.insert(verify.end(), holder.begin(), holder.end());
+  const Finished judged = Patchmill(verify);
+  EXPECT_EQ(judged.status, 1);
+  EXPECT_THAT(judged.out + judged.err, HasSubstr("HOLDER_GOUGE"));
+  for (const char* wrong : {"10", "10,40,50,60", "10,x", "10;40"}) {
+    const Finished refused = Mill(bump_, {"--stickout", "30", "--holder", wrong});
+    EXPECT_EQ(refused.status, 2) << wrong << refused.err;
+    EXPECT_THAT(refused.err, HasSubstr("--holder")) << wrong;
+  }
+  EXPECT_THAT(Mill(bump_, {"--holder", "10,40"}).err, HasSubstr("--stickout"));
+}
+
+TEST_F(Cli, TheTextHelpsTheOperator) {
+  const Finished mill = Mill(waves_, {"--floor", "-5", "--restart-points", "--line-numbers", "5"});
+  ASSERT_EQ(mill.status, 0) << mill.err;
+  const std::string text = Slurp(out_ / "part.ngc");
+  EXPECT_THAT(text,
+              AllOf(HasSubstr("(section 1, region "), HasSubstr("(restart point 1: "), HasSubstr("\nN5 ")));
+  const Finished verify = Patchmill({"verify", waves_, out_ / "part.ngc", "--tool-diameter", "6", "--floor",
+                                     "-5", "--scallop", "0.4", "--tolerance", "0.02"});
+  EXPECT_EQ(verify.status, 0) << verify.out << verify.err;
+  EXPECT_EQ(Mill(waves_, {"--line-numbers", "1001"}).status, 2);
+}
+
+TEST_F(Cli, TooMuchUnreachedEndsTheJob) {
+  const Finished refused = Mill(waves_, {"--tool-diameter", "60", "--max-unreached", "1"});
+  EXPECT_EQ(refused.status, 1);
+  EXPECT_THAT(refused.err, AllOf(HasSubstr("TOO_MUCH_UNREACHED"), HasSubstr("no program was written")));
+  EXPECT_EQ(Mill(waves_, {"--tool-diameter", "60", "--max-unreached", "100"}).status, 0);
+  const Finished wrong = Mill(waves_, {"--max-unreached", "150"});
+  EXPECT_EQ(wrong.status, 2);
+  EXPECT_THAT(wrong.err, HasSubstr("--max-unreached"));
 }
 
 TEST_F(Cli, TheMachineLimitsTheProgramAndTimesIt) {

@@ -97,6 +97,7 @@ TEST(Contract, DimensionedNumbersCarryTheirUnit) {
   // Numbers without a dimension, and coordinates in the unit their model states.
   const std::set<std::string> plain = {"scale",
                                        "fraction",
+                                       "max_unreached_fraction",
                                        "u",
                                        "v",
                                        "knots_u",

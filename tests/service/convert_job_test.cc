@@ -74,6 +74,13 @@ constexpr double kInf = std::numeric_limits<double>::infinity();
 constexpr auto kNext = absl::StatusCode::kUnimplemented;
 const auto kName = [](const auto& wrong) { return std::string(wrong.param.name); };
 
+void AddSegment(Request& r, double length, double lower, double upper) {
+  v1::HolderSegment& segment = *ToolOf(r).add_holder();
+  segment.set_length_mm(length);
+  segment.set_lower_diameter_mm(lower);
+  segment.set_upper_diameter_mm(upper);
+}
+
 INSTANTIATE_TEST_SUITE_P(
     Operations, WrongJobs,
     ::testing::Values(
@@ -145,6 +152,8 @@ INSTANTIATE_TEST_SUITE_P(
               "job.operations[0].feeds.lead_mm_per_min = nan"},
         Wrong{"AcceptDepth", [](Request& r) { OperationOf(r).set_accept_depth_mm(-1); },
               "job.operations[0].accept_depth_mm = -1; must be in [0, 1000]"},
+        Wrong{"MaxUnreached", [](Request& r) { OperationOf(r).set_max_unreached_fraction(-0.1); },
+              "job.operations[0].max_unreached_fraction = -0.1; must be in [0, 1]"},
         Wrong{"StockBlock", [](Request& r) { StockOf(r).mutable_block()->set_margin_mm(-1); },
               "job.setup.stock.block.margin_mm = -1; must be in [0, 10000]"},
         Wrong{"StockCylinder", [](Request& r) { StockOf(r).mutable_cylinder()->set_diameter_mm(0); },
@@ -216,6 +225,22 @@ INSTANTIATE_TEST_SUITE_P(
               "job.operations[0].tool.flute_length_mm is missing; required when shank_diameter_mm = 8"},
         Wrong{"Stickout", [](Request& r) { ToolOf(r).set_stickout_mm(kInf); },
               "job.operations[0].tool.stickout_mm = inf"},
+        Wrong{"Holder",
+              [](Request& r) {
+                ToolOf(r).set_stickout_mm(30);
+                AddSegment(r, 20, 40, 0);
+              },
+              "job.operations[0].tool.holder[0].upper_diameter_mm = 0; must be in (0, 100000]"},
+        Wrong{"HolderWithoutStickout", [](Request& r) { AddSegment(r, 20, 40, 40); },
+              "job.operations[0].tool.stickout_mm is missing; required with a holder"},
+        Wrong{"HolderTooLong",
+              [](Request& r) {
+                ToolOf(r).set_stickout_mm(30);
+                for (int k = 0; k < 101; ++k) AddSegment(r, 20, 40, 40);
+              },
+              "job.operations[0].tool.holder has 101 segments; must be at most 100"},
+        Wrong{"HolderClearance", [](Request& r) { ToolOf(r).set_holder_clearance_mm(-1); },
+              "job.operations[0].tool.holder_clearance_mm = -1; must be in [0, 100]"},
         Wrong{"Coolant", [](Request& r) { ToolOf(r).set_coolant(static_cast<v1::Coolant>(50)); },
               "job.operations[0].tool.coolant = 50"},
         Wrong{"ToolName", [](Request& r) { ToolOf(r).set_name(std::string(101, 'n')); },
@@ -236,11 +261,19 @@ INSTANTIATE_TEST_SUITE_P(
               "job.setup.program_zero.y_mm = nan"},
         Wrong{"Translation", [](Request& r) { SetupOf(r).mutable_translation()->set_z_mm(1e7); },
               "job.setup.translation.z_mm = 10000000; must be in [-100000, 100000]"},
+        Wrong{"WallSide", [](Request& r) { SetupOf(r).add_wall_sides()->mutable_air(); },
+              "job.setup.wall_sides[0].patch_id is missing; required"},
+        Wrong{"WallSideWithoutPoint", [](Request& r) { SetupOf(r).add_wall_sides()->set_patch_id("w"); },
+              "job.setup.wall_sides[0].air is missing; required"},
         Wrong{"StockTop", [](Request& r) { SetupOf(r).mutable_stock()->set_top_z_mm(kNan); },
               "job.setup.stock.top_z_mm = nan"},
         Wrong{"Allowance", [](Request& r) { SetupOf(r).mutable_stock()->set_allowance_mm(-1); },
               "job.setup.stock.allowance_mm = -1; must be in [0, 100]"}),
     kName);
+
+constexpr std::string_view kOwnPost =
+    "[control]\nname = own\ncomment = ( )\ncomment_length = 80\n[path]\nfollows = exactly\n"
+    "[begin]\nG17 G21 G90 G94\nG0 X{x} Y{y}\nZ{z}\n[end]\nM2\n";
 
 INSTANTIATE_TEST_SUITE_P(
     Posts, WrongJobs,
@@ -252,6 +285,14 @@ INSTANTIATE_TEST_SUITE_P(
                             "post.post_file line 2: name: = \"A b\"; must consist of a-z, 0-9, - and _"},
                       Wrong{"ProgramNumber", [](Request& r) { r.mutable_post()->set_program_number(10000); },
                             "post.program_number = 10000; must be in [1, 9999]"},
+                      Wrong{"LineNumbers", [](Request& r) { r.mutable_post()->set_line_number_step(1001); },
+                            "post.line_number_step = 1001; must be in [0, 1000]"},
+                      Wrong{"RestartPoints",
+                            [](Request& r) {
+                              r.mutable_post()->set_post_file(std::string(kOwnPost));
+                              r.mutable_post()->set_restart_points(true);
+                            },
+                            "post.restart_points = true; the dialect own has no section [restart]"},
                       Wrong{"Deviation", [](Request& r) { r.mutable_post()->set_control_deviation_mm(2.0); },
                             "post.control_deviation_mm = 2; must be in (0, 1]"},
                       Wrong{"WorkOffset", [](Request& r) { r.mutable_post()->set_work_offset("G60"); },
@@ -374,9 +415,7 @@ INSTANTIATE_TEST_SUITE_P(
 // Places that are only reserved: refused by name, never silently ignored.
 INSTANTIATE_TEST_SUITE_P(
     Next, WrongJobs,
-    ::testing::Values(Wrong{"Holder", [](Request& r) { ToolOf(r).add_holder(); },
-                            "job.operations[0].tool.holder is not there yet", kNext},
-                      Wrong{"SecondOperation",
+    ::testing::Values(Wrong{"SecondOperation",
                             [](Request& r) { *r.mutable_job()->add_operations() = OperationOf(r); },
                             "job.operations[1] is not there yet", kNext},
                       Wrong{"Inch", [](Request& r) { r.mutable_post()->set_unit(v1::LENGTH_UNIT_INCH); },
@@ -406,14 +445,20 @@ Request Unusual() {
   SetupOf(r).mutable_stock()->set_allowance_mm(0.75);
   SetupOf(r).mutable_stock()->mutable_block()->set_margin_mm(12);
   SetMachine(r);
+  SetupOf(r).add_wall_sides()->set_patch_id("wall");
+  SetupOf(r).mutable_wall_sides(0)->mutable_air()->set_y_mm(-4);
   v1::Tool& tool = ToolOf(r);
   tool.set_number(7);
   tool.set_name("ball 6");
   tool.set_flute_length_mm(12);
   tool.set_shank_diameter_mm(8);
   tool.set_stickout_mm(40);
+  AddSegment(r, 20, 40, 42);
+  AddSegment(r, 5, 63, 63);
+  tool.set_holder_clearance_mm(1.25);
   tool.set_coolant(v1::COOLANT_MIST);
   tool.set_cutting_data_is_default(true);
+  tool.set_number_is_default(true);
   v1::Operation& op = OperationOf(r);
   op.set_stock_to_leave_mm(0.125);
   op.set_steep_angle_deg(60);
@@ -434,8 +479,10 @@ Request Unusual() {
   op.mutable_leads()->set_sweep_deg(60);
   op.mutable_feeds()->set_plunge_angle_deg(20);
   op.mutable_feeds()->set_link_mm_per_min(2000);
+  op.mutable_feeds()->set_keep_on_passes(true);
   op.mutable_feeds()->set_lead_mm_per_min(600);
   op.set_accept_depth_mm(1.5);
+  op.set_max_unreached_fraction(0.75);
   op.mutable_heights()->set_floor_z_mm(-3);
   op.mutable_heights()->set_top_z_mm(30);
   v1::Obstacle& obstacle = *SetupOf(r).add_obstacles();
@@ -468,6 +515,8 @@ Request Unusual() {
   r.mutable_post()->set_program_number(42);
   r.mutable_post()->set_control_deviation_mm(0.002);
   r.mutable_post()->set_arcs(false);
+  r.mutable_post()->set_restart_points(true);
+  r.mutable_post()->set_line_number_step(5);
   r.mutable_post()->set_unit(v1::LENGTH_UNIT_MILLIMETER);
   r.mutable_post()->set_work_offset("G57");
   return r;
@@ -530,6 +579,7 @@ TEST(JobDigestTest, SeesEveryFieldAndNoDefault) {
   EXPECT_TRUE(differs([](Request& r) { ToolOf(r).set_flute_length_mm(9); }));
   EXPECT_TRUE(differs([](Request& r) { ToolOf(r).set_coolant(v1::COOLANT_AIR); }));
   EXPECT_TRUE(differs([](Request& r) { ToolOf(r).set_cutting_data_is_default(true); }));
+  EXPECT_TRUE(differs([](Request& r) { ToolOf(r).set_number_is_default(true); }));
   EXPECT_TRUE(differs([](Request& r) { OperationOf(r).set_strategy(v1::STRATEGY_ZIGZAG); }));
   EXPECT_TRUE(differs([](Request& r) { OperationOf(r).set_contour_direction(v1::CUT_DIRECTION_EITHER); }));
   EXPECT_TRUE(differs([](Request& r) { OperationOf(r).set_detail(0.0); }));
@@ -537,6 +587,7 @@ TEST(JobDigestTest, SeesEveryFieldAndNoDefault) {
   EXPECT_TRUE(differs([](Request& r) { HeightsOf(r).set_top_z_mm(2); }));
   EXPECT_TRUE(differs([](Request& r) { HeightsOf(r).set_high_rapids(true); }));
   EXPECT_TRUE(differs([](Request& r) { SetMachine(r); }));
+  EXPECT_TRUE(differs([](Request& r) { SetupOf(r).add_wall_sides()->mutable_air(); }));
   EXPECT_TRUE(differs([](Request& r) { StockOf(r).mutable_block(); }));
   EXPECT_TRUE(differs([](Request& r) { StockOf(r).mutable_cylinder()->set_diameter_mm(90); }));
   EXPECT_TRUE(differs([](Request& r) {
@@ -546,10 +597,18 @@ TEST(JobDigestTest, SeesEveryFieldAndNoDefault) {
   EXPECT_TRUE(differs([](Request& r) { OperationOf(r).mutable_leads()->set_sweep_deg(80); }));
   EXPECT_TRUE(differs([](Request& r) { OperationOf(r).mutable_feeds()->set_plunge_angle_deg(20); }));
   EXPECT_TRUE(differs([](Request& r) { OperationOf(r).mutable_feeds()->set_link_mm_per_min(900); }));
+  EXPECT_TRUE(differs([](Request& r) { OperationOf(r).mutable_feeds()->set_keep_on_passes(true); }));
   EXPECT_TRUE(differs([](Request& r) { OperationOf(r).mutable_feeds()->set_lead_mm_per_min(900); }));
   EXPECT_TRUE(differs([](Request& r) { OperationOf(r).set_accept_depth_mm(1); }));
+  EXPECT_TRUE(differs([](Request& r) {
+    ToolOf(r).set_stickout_mm(40);
+    AddSegment(r, 20, 40, 40);
+  }));
+  EXPECT_TRUE(differs([](Request& r) { OperationOf(r).set_max_unreached_fraction(0.75); }));
   EXPECT_TRUE(differs([](Request& r) { SelectionOf(r).add_patch_ids("bump"); }));
   EXPECT_TRUE(differs([](Request& r) { r.mutable_post()->set_arcs(false); }));
+  EXPECT_TRUE(differs([](Request& r) { r.mutable_post()->set_restart_points(true); }));
+  EXPECT_TRUE(differs([](Request& r) { r.mutable_post()->set_line_number_step(7); }));
   EXPECT_TRUE(differs([](Request& r) { SelectionOf(r).add_avoid_patch_ids("bump"); }));
   EXPECT_TRUE(differs([](Request& r) { OperationOf(r).set_regions_sha256(std::string(32, 'x')); }));
   EXPECT_TRUE(differs([](Request& r) { AddOverride(r, true).set_skip(true); }));

@@ -38,9 +38,9 @@ absl::StatusOr<OperationLimits> OperationLimits::Make(const Surface& surface, co
                         Locator::Make(*keep.avoided_, params.ball_radius + containment.avoid_margin, run));
     keep.avoided_locator_ = std::make_shared<const Locator>(std::move(locator));
   }
-  if (params.shank) {
+  for (const UpperCylinder& cylinder : params.uppers) {
     const auto add = [&](const Surface& off, double distance) {
-      const ShankLimit limit(off, *params.shank, distance, kShankProof * params.tolerance,
+      const ShankLimit limit(off, cylinder, distance, kShankProof * params.tolerance,
                              kShankSlope * params.tolerance);
       // The ball's centre is never below the lowest point that the ball touches.
       if (limit.MayTouch(surface.box.min.z())) keep.shanks_.push_back(limit);
@@ -88,24 +88,31 @@ bool OperationLimits::WantsNothing(const SurfacePoint& middle, const ParameterBo
   return !IsWanted(*containment_, surface_->piece(middle.piece).patch, middle.p, -radius);
 }
 
-double OperationLimits::OutlineRoom(const Vec3& c) const {
+bool OperationLimits::HasHolder() const {
+  return (!shanks_.empty() && shanks_.back().part() == UpperPart::kHolder) ||
+         std::any_of(containment_->obstacles.begin(), containment_->obstacles.end(),
+                     [](const Obstacle& o) { return o.of_holder; });
+}
+
+double OperationLimits::OutlineRoom(const Vec3& c, UpperPart part) const {
   double room = BoundaryRoom(*containment_, Xy(c), params_.ball_radius);
   for (const Obstacle& o : containment_->obstacles) {
+    if (o.of_holder && part == UpperPart::kShank) continue;
     room = std::min(room, ObstacleRoom(o, Tip(c), params_.tool_radius));
   }
   return room;
 }
 
-double OperationLimits::MoveRoom(const Vec3& c) const {
-  return std::min(OutlineRoom(c), BesideRoom(*containment_, Tip(c)));
+double OperationLimits::MoveRoom(const Vec3& c, UpperPart part) const {
+  return std::min(OutlineRoom(c, part), BesideRoom(*containment_, Tip(c)));
 }
 
 bool OperationLimits::TooHigh(double center_z) const {
   return TopRoom(*containment_, center_z - params_.ball_radius) < -kTopSlack;
 }
 
-double OperationLimits::Room(const Vec3& c) const {
-  return std::min(MoveRoom(c), TopRoom(*containment_, Tip(c).z()) + kTopSlack);
+double OperationLimits::Room(const Vec3& c, UpperPart part) const {
+  return std::min(MoveRoom(c, part), TopRoom(*containment_, Tip(c).z()) + kTopSlack);
 }
 
 std::optional<AllowedHeights> OperationLimits::HeightsOver(const Vec2& q, double gap, double from) const {
@@ -159,11 +166,14 @@ double OperationLimits::ClearHeight(const Vec2& a, const Vec2& b) const {
     if (meets(strip.area, 0.0)) clear = std::max(clear, strip.lowest_tip_z + params_.ball_radius);
   }
   if (avoided_locator_) {
-    const double wider = params_.tool_radius - params_.ball_radius;
-    // A wide shank with its margin counts as such a ball, raised if the shank begins lower.
-    const double lower =
-        params_.shank ? std::max(0.0, containment_->avoid_margin - params_.shank->rise) : 0.0;
-    clear = std::max(clear, avoided_locator_->MaxHeight(a, b, wider, kFine) + lower);
+    clear = std::max(clear, avoided_locator_->MaxHeight(a, b, 0.0, kFine));
+    // Over everything within the radius of a cylinder and its margin, such a ball is at least as high as
+    // that.
+    for (const UpperCylinder& cylinder : params_.uppers) {
+      const double wider = cylinder.radius - params_.ball_radius;
+      clear = std::max(clear, avoided_locator_->MaxHeight(a, b, wider, kFine) + containment_->avoid_margin -
+                                  cylinder.rise);
+    }
   }
   return clear;
 }
@@ -189,6 +199,12 @@ bool OperationLimits::HasRoom(const Vec3& a, const Vec3& b) const {
 bool OperationLimits::ClearOfAvoided(const Vec3& a, const Vec3& b) const {
   if (!avoided_locator_) return true;
   return avoided_locator_->GougeWithin(a, b, LimitTolerance(), 0.1 * LimitTolerance());
+}
+
+bool OperationLimits::AllowsBelowHolder(const Vec3& c) const {
+  return AllowsBall(c) && std::all_of(shanks_.begin(), shanks_.end(), [&](const ShankLimit& limit) {
+           return limit.part() == UpperPart::kHolder || limit.Clears(c, c, 0.0);
+         });
 }
 
 bool OperationLimits::ShankClears(const Vec3& a, const Vec3& b, double allowed_penetration) const {

@@ -8,7 +8,7 @@
 
 #include "cam/limits/containment.h"
 #include "cam/limits/surface_mask.h"
-#include "cam/limits/wide_shank.h"
+#include "cam/limits/upper_cylinders.h"
 #include "cam/location/limits/mask_proximity.h"
 #include "cam/location/limits/shank_limit.h"
 #include "cam/location/locator.h"
@@ -19,8 +19,8 @@ struct OperationLimitsParams {
   double ball_radius = 3.0;  // mm, radius of the ball itself
   double tool_radius = 3.0;  // mm, larger radius of ball and shank: obstacles are kept off by it
   double leave = 0.0;        // mm, stock to leave; also kept off avoided patches
-  std::optional<WideShank> shank = std::nullopt;  // kept `leave` off the surface, the margin off avoided ones
-  double tolerance = 0.01;                        // mm; moves may violate a limit by half of it
+  std::vector<UpperCylinder> uppers = {};  // kept `leave` off the surface, the margin off avoided patches
+  double tolerance = 0.01;                 // mm; moves may violate a limit by half of it
 };
 
 // Centre heights allowed over one place, mm: from `lowest` to `highest`. There are none if lowest is above
@@ -47,8 +47,10 @@ class OperationLimits {
   bool AllowsAll() const { return containment_->AllowsAll() && shanks_.empty(); }
   // True if there are areas beside the part that are closed to the tool.
   bool HasBeside() const { return !containment_->beside.empty(); }
-  // True if a shank wider than the ball may touch the surface from some centre.
-  bool HasShank() const { return !shanks_.empty(); }
+  // True if a shank wider than the ball, or the holder, may touch the surface from some centre.
+  bool HasUppers() const { return !shanks_.empty() || HasHolder(); }
+  // True if the holder may touch the surface or an obstacle.
+  bool HasHolder() const;
 
   // True if the contact is to be finished.
   bool Wants(const SurfacePoint& contact) const;
@@ -65,13 +67,17 @@ class OperationLimits {
   // top_z by more than rounding.
   bool TooHigh(double center_z) const;
   // True if a finishing ball may be centred at c.
-  bool Allows(const Vec3& c) const { return AllowsBall(c) && ShankClears(c, c, 0.0); }
+  bool Allows(const Vec3& c) const {
+    return Room(c) >= 0.0 && ClearOfAvoided(c, c) && ShankClears(c, c, 0.0);
+  }
   // As Allows, but without the limits beside the part.
   bool AllowsBesidePart(const Vec3& c) const {
     return OutlineRoom(c) >= 0.0 && !TooHigh(c.z()) && ClearOfAvoided(c, c) && ShankClears(c, c, 0.0);
   }
-  // As Allows, for a shank that is no wider than the ball.
-  bool AllowsBall(const Vec3& c) const { return Room(c) >= 0.0 && ClearOfAvoided(c, c); }
+  // As Allows, for a shank that is no wider than the ball, without a holder.
+  bool AllowsBall(const Vec3& c) const { return Room(c, UpperPart::kShank) >= 0.0 && ClearOfAvoided(c, c); }
+  // As Allows, without a holder.
+  bool AllowsBelowHolder(const Vec3& c) const;
   // The heights over q at which a finishing ball may be centred, to `gap` (mm). nullopt outside a boundary.
   // Every limit but top_z holds from below, so the allowed heights are one interval. If it begins below
   // `from` (mm) and below its own end, its beginning need not be exact.
@@ -94,9 +100,10 @@ class OperationLimits {
   Vec3 Tip(const Vec3& c) const { return c - Vec3(0.0, 0.0, params_.ball_radius); }
   // Room (containment.h, mm) of the centre c inside boundary and obstacles. MoveRoom: the areas beside the
   // part, too. Room: top_z, too.
-  double OutlineRoom(const Vec3& c) const;
-  double MoveRoom(const Vec3& c) const;
-  double Room(const Vec3& c) const;
+  // Obstacles limit the holder, too, unless `part` is the shank.
+  double OutlineRoom(const Vec3& c, UpperPart part = UpperPart::kHolder) const;
+  double MoveRoom(const Vec3& c, UpperPart part = UpperPart::kHolder) const;
+  double Room(const Vec3& c, UpperPart part = UpperPart::kHolder) const;
   bool HasRoom(const Vec3& a, const Vec3& b) const;  // all along the move a b, by MoveRoom
   bool ClearOfAvoided(const Vec3& a, const Vec3& b) const;
   bool ShankClears(const Vec3& a, const Vec3& b, double allowed_penetration) const;
@@ -108,7 +115,7 @@ class OperationLimits {
   std::shared_ptr<const Surface> selected_;         // if only some patches are selected
   std::shared_ptr<const Surface> avoided_;          // if a margin is kept from them
   std::shared_ptr<const Locator> avoided_locator_;  // for ball and margin, over avoided_
-  std::vector<ShankLimit> shanks_;                  // of the surface and of the avoided patches
+  std::vector<ShankLimit> shanks_;                  // of the surface and the avoided patches; holder last
   std::shared_ptr<const SurfaceMask> part_;         // null: the whole surface
   std::shared_ptr<const MaskProximity> mask_proximity_;
 };

@@ -1,27 +1,30 @@
-// The limit that a shank wider than the ball sets to the centre: the shank must stay clear of a surface.
+// The limit that a cylinder above the ball, a wide shank or a part of the holder, sets to the centre: the
+// cylinder must stay clear of a surface.
 #pragma once
 
-#include <optional>
-
-#include "cam/limits/wide_shank.h"
+#include "cam/limits/upper_cylinders.h"
 #include "core/surface/surface.h"
 
 namespace patchmill {
 
-// With the centre at c, a surface point p at the distance d from the axis in plan lies in the shank by
-// min(radius - d, p_z - c_z - rise) [regions (9)]. The depth of the shank in the surface is the largest such
-// value. It changes by no more than c moves.
+// With the centre at c, a surface point p at the distance d from the axis in plan lies in the cylinder by
+// min(radius - d, p_z - c_z - rise) [regions (9)]. The depth of the cylinder in the surface is the largest
+// such value. It changes by no more than c moves.
 class ShankLimit {
  public:
-  // The shank keeps the distance `keep` (mm) from `surface`, which must outlive this object: the cylinder is
-  // widened by `keep` and begins lower by `keep`. Answers are exact to `proof` (mm). For a move that climbs
-  // or falls they are exact to `slope` (mm), since such a move is divided into steps of this height.
-  ShankLimit(const Surface& surface, const WideShank& shank, double keep, double proof, double slope)
+  // The cylinder keeps the distance `keep` (mm) from `surface`, which must outlive this object: the
+  // cylinder is widened by `keep` and begins lower by `keep`. Answers are exact to `proof` (mm). For a move
+  // that climbs or falls they are exact to `slope` (mm), since such a move is divided into steps of this
+  // height.
+  ShankLimit(const Surface& surface, const UpperCylinder& cylinder, double keep, double proof, double slope)
       : surface_(&surface),
-        radius_(shank.radius + keep),
-        rise_(shank.rise - keep),
+        radius_(cylinder.radius + keep),
+        rise_(cylinder.rise - keep),
         proof_(proof),
-        slope_(slope) {}
+        slope_(slope),
+        part_(cylinder.part) {}
+
+  UpperPart part() const { return part_; }
 
   // True if the highest point of `surface` may be in the shank of some centre that is no lower than
   // `lowest_center` (mm).
@@ -42,6 +45,7 @@ class ShankLimit {
 
   const Surface* surface_;
   double radius_, rise_, proof_, slope_;
+  UpperPart part_;
 };
 
 }  // namespace patchmill

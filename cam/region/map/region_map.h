@@ -61,8 +61,8 @@ struct RegionParams {
   // - at most 40 d reachable regions remain, unless no two of them may be joined.
   double detail = 0.5;
   // A place whose centre is not allowed is unreachable. The reason is kOutside if the centre is forbidden
-  // only because it lies beside the part, kShank if only the shank is in the way, else kAvoided. null allows
-  // all centres.
+  // only because it lies beside the part, kShank or kHolder if only these are in the way, else kAvoided.
+  // null allows all centres.
   const OperationLimits* operation_limits = nullptr;
   // Continuous; > 0 where forced passes finish the surface. Elsewhere the reason is kStrategy. Empty if
   // nothing is forced.

@@ -136,8 +136,14 @@ bool ReachTest::ForbiddenBesidePart(const Vec3& p, const Facing& facing) const {
 }
 
 bool ReachTest::BlockedByShank(const Vec3& p, const Facing& facing) const {
-  return params_.operation_limits != nullptr && params_.operation_limits->HasShank() &&
+  return params_.operation_limits != nullptr && params_.operation_limits->HasUppers() &&
          AllowedOnASide(p, facing, [&](const Vec3& c) { return params_.operation_limits->AllowsBall(c); });
+}
+
+bool ReachTest::BlockedByHolder(const Vec3& p, const Facing& facing) const {
+  return params_.operation_limits != nullptr && params_.operation_limits->HasHolder() &&
+         AllowedOnASide(p, facing,
+                        [&](const Vec3& c) { return params_.operation_limits->AllowsBelowHolder(c); });
 }
 
 double ReachTest::OverFloor(const Vec3& p, const Vec3& normal) const {

@@ -47,8 +47,11 @@ class ReachTest {
   bool Allowed(const Vec3& p, const Facing& facing) const;
   // For a place that is not Allowed: true if only an area beside the part forbids its centre (OUTSIDE).
   bool ForbiddenBesidePart(const Vec3& p, const Facing& facing) const;
-  // For a place that is not Allowed: true if a shank no wider than the ball would make it Allowed (SHANK).
+  // For a place that is not Allowed: true if it were Allowed for a shank no wider than the ball, without a
+  // holder (SHANK, HOLDER).
   bool BlockedByShank(const Vec3& p, const Facing& facing) const;
+  // For a place that is not Allowed: true if it were Allowed without a holder (HOLDER).
+  bool BlockedByHolder(const Vec3& p, const Facing& facing) const;
 
   const Locator& free_ball() const { return free_ball_; }
 

@@ -82,6 +82,16 @@ std::vector<ZeroField> RegionFields(const ReachTest& reach, const RegionParams& 
     const auto facing = FacingAt(jet);
     return !facing ? 0.0 : reach.BlockedByShank(jet.p, *facing) ? -1.0 : 1.0;
   };
+  ZeroField& holder = at(Field::kHolder);
+  holder.smooth = false;
+  holder.resolution = params.border_tolerance;
+  holder.where = static_cast<int>(Field::kAllowed);
+  holder.value = [&reach, any = params.operation_limits != nullptr &&
+                                params.operation_limits->HasHolder()](const SurfaceJet& jet) {
+    if (!any) return 1.0;
+    const auto facing = FacingAt(jet);
+    return !facing ? 0.0 : reach.BlockedByHolder(jet.p, *facing) ? -1.0 : 1.0;
+  };
   // The floor and all labels of reachable areas count only where the ball is free.
   at(Field::kFinished).value = params.finished;
   for (const Field field :
@@ -91,7 +101,8 @@ std::vector<ZeroField> RegionFields(const ReachTest& reach, const RegionParams& 
   }
   if (params.finished) return fields;
   fields.pop_back();
-  if (params.operation_limits != nullptr && params.operation_limits->HasShank()) return fields;
+  if (params.operation_limits != nullptr && params.operation_limits->HasUppers()) return fields;
+  fields.pop_back();
   fields.pop_back();
   if (params.operation_limits == nullptr) {
     fields.pop_back();
@@ -130,7 +141,9 @@ SplitLabel LabelOf(const ZeroTriangle& triangle) {
   } else if (sign(Field::kFloor) < 0) {
     label.reason = UnreachableReason::kFloor;
   } else if (sign(Field::kAllowed) < 0) {
-    label.reason = sign(Field::kShank) < 0 ? UnreachableReason::kShank : UnreachableReason::kAvoided;
+    label.reason = sign(Field::kHolder) < 0  ? UnreachableReason::kHolder
+                   : sign(Field::kShank) < 0 ? UnreachableReason::kShank
+                                             : UnreachableReason::kAvoided;
   } else if (sign(Field::kFinished) < 0) {
     label.reason = UnreachableReason::kStrategy;
   }

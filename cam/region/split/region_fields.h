@@ -19,12 +19,13 @@ enum class Field {
   kSlope,      // SlopeField of the steep angle: > 0 gentle
   kCurvature,  // ContourCurvatureField: times the sign of kTurn it is < 0 on mountains
   // A field that the operation does not need is absent if no later one is needed, either.
-  kAllowed,   // < 0 AVOIDED, OUTSIDE or SHANK: the centre is not allowed; needed if the operation has limits
+  kAllowed,   // < 0 where the centre is not allowed (AVOIDED, OUTSIDE, SHANK, HOLDER); needed with limits
   kOutside,   // where the centre is not allowed: < 0 OUTSIDE; present if kAllowed is
-  kShank,     // where the centre is not allowed: < 0 SHANK, > 0 AVOIDED; needed for a wide shank
+  kShank,     // where the centre is not allowed: > 0 AVOIDED; needed for a wide shank or a holder
+  kHolder,    // there: < 0 HOLDER; else SHANK where kShank is < 0; present if kShank is
   kFinished,  // < 0 STRATEGY; needed if a strategy is forced
 };
-inline constexpr int kFieldCount = 10;
+inline constexpr int kFieldCount = 11;
 static_assert(kFieldCount <= kMaxZeroFields);
 
 // The fields in the order of the enum. They keep a reference to `reach`.

@@ -7,6 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "cam/plan/job_findings.h"
 #include "tests/support/jobs/jobs.h"
 #include "tests/support/shapes.h"
 
@@ -32,10 +33,16 @@ Job QuickJob() {
 TEST(Report, StatesItsAssumptionsInReportAndProgram) {
   Job job = QuickJob();
   job.setup.allowance = 0.7;
-  job.default_cutting_data = true;
+  job.default_cutting_data = job.default_tool_number = true;
+  job.setup.zero_stated = false;
   job.header = {"made for a test"};
   const JobResult result = Mill(PlacedSurface(Saddle(0.02, 0.02, 8)), job);
-  for (const char* code : {"STOCK_ASSUMED", "HOLDER_NOT_CHECKED", "DEFAULT_CUTTING_DATA"}) {
+  const std::size_t block = result.program.find("(ASSUMED: check before start)");
+  ASSERT_NE(block, std::string::npos);
+  for (const char* code : {"STOCK_ASSUMED", "HOLDER_NOT_CHECKED", "DEFAULT_CUTTING_DATA",
+                           "TOOL_NUMBER_ASSUMED", "ZERO_ASSUMED"}) {
+    EXPECT_TRUE(IsToCheckBeforeStart(code));
+    EXPECT_GT(result.program.find(code), block);
     const Diagnostic* found = Find(result.report.diagnostics, code);
     ASSERT_NE(found, nullptr) << code;
     EXPECT_EQ(found->severity, Severity::kWarning);

@@ -23,6 +23,46 @@ Job JobInBlock(double margin, double top_z) {
   return job;
 }
 
+// A wall of 60 degrees, cut by lines that go down it. With the stock stated, passes may keep their feed; the
+// descents onto passes may not.
+TEST(JobStock, PassesMayKeepTheirFeedWhereTheyDescend) {
+  const double slope = std::tan(Radians(60.0));
+  PatchModel model;
+  BezierPatch wall;
+  wall.degree_u = wall.degree_v = 1;
+  wall.points = {{0, 0, 0}, {0, 20, 0}, {8, 0, 8 * slope}, {8, 20, 8 * slope}};
+  model.patches.push_back({"", std::move(wall)});
+  const Surface surface = PlacedSurface(model);
+  Job job = LimitedJob();
+  job.operation.strategy = Strategy::kZigzag;
+  job.setup.allowance = 0.3;
+  job.setup.allowance_stated = true;
+  const auto fastest_descent = [](const JobResult& result) {
+    double fastest = 0.0;
+    const std::vector<Move>& moves = result.motion.toolpath.moves;
+    for (std::size_t i = 1; i < moves.size(); ++i) {
+      const Vec3 d = moves[i].to - moves[i - 1].to;
+      if (moves[i].kind == MoveKind::kCut && -d.z() > 1.01 * std::tan(kDefaultPlungeAngle) * Xy(d).norm())
+        fastest = std::max(fastest, moves[i].feed);
+    }
+    return fastest;
+  };
+  const JobResult slow = Mill(surface, job);
+  ASSERT_EQ(slow.report.outcome, Outcome::kComplete) << Describe(slow);
+  EXPECT_EQ(fastest_descent(slow), kTestPlungeFeed);
+  job.operation.keep_feed = true;
+  const JobResult fast = Mill(surface, job);
+  ASSERT_EQ(fast.report.outcome, Outcome::kComplete) << Describe(fast);
+  EXPECT_EQ(fastest_descent(fast), kTestFeed);
+  job.operation.accept_depth = 0.5;
+  EXPECT_FALSE(RunJob(surface, job, RunContext()).ok());
+  job.operation.accept_depth = 0.0;
+  job.setup.allowance_stated = false;
+  const auto refused = RunJob(surface, job, RunContext());
+  ASSERT_FALSE(refused.ok());
+  EXPECT_NE(refused.status().message().find("feeds.keep_on_passes"), std::string::npos) << refused.status();
+}
+
 // The surface lies 3 mm deep in a block from which nothing has been cut.
 TEST(JobStock, AWholeBlockNeedsRoughing) {
   const Surface surface = PlacedSurface(Plane(10));

@@ -339,5 +339,46 @@ TEST(Sides, TheToolBesideARimIsTold) {
   EXPECT_TRUE(Warns(result, "TOOL_BESIDE_PART"));
 }
 
+// A wall that stands alone is milled from the side that the user picks, and only from there.
+TEST(WallSides, AWallAloneIsMilledFromThePickedSide) {
+  const PatchModel model = Wall({0, 0}, {30, 0}, 0, 12);
+  for (const double air : {-5.0, 5.0}) {
+    SCOPED_TRACE(air);
+    patchmill::Setup setup;
+    setup.wall_sides = {{"#0", Vec3(10, air, 40)}};
+    const auto surface = BuildPlacedSurface(model, setup, RunContext());
+    ASSERT_TRUE(surface.ok()) << surface.status();
+    EXPECT_TRUE(surface->two_sided_walls.empty());
+    EXPECT_TRUE(WallsWithoutSide(*surface).empty());
+    Job job = BoxJob();
+    job.operation.selection.mill_outside = true;
+    const JobResult result = Mill(*surface, job);
+    ASSERT_FALSE(result.program.empty()) << Describe(result);
+    int cuts = 0;
+    for (const Move& move : result.motion.toolpath.moves) {
+      if (move.kind != MoveKind::kCut || move.to.z() > 10.0) continue;
+      EXPECT_GT(move.to.y() * air, 0.0);
+      ++cuts;
+    }
+    EXPECT_GT(cuts, 5);
+    EXPECT_NEAR(result.report.verify.reachable_area, 30.0 * (12.0 - kBall), 0.02 * 30.0 * 12.0);
+  }
+}
+
+TEST(WallSides, FaultsAreNamed) {
+  const auto refused = [](const PatchModel& model, const WallSide& side) {
+    patchmill::Setup setup;
+    setup.wall_sides = {side};
+    const auto surface = BuildPlacedSurface(model, setup, RunContext());
+    EXPECT_FALSE(surface.ok());
+    return std::string(surface.status().message());
+  };
+  const PatchModel alone = Wall({0, 0}, {30, 0}, 0, 12);
+  EXPECT_NE(refused(alone, {"#1", Vec3(1, 1, 1)}).find("setup.wall_sides[0].patch_id"), std::string::npos);
+  EXPECT_NE(refused(alone, {"#0", Vec3(10, 0, 5)}).find("lies on the wall"), std::string::npos);
+  EXPECT_NE(refused(OpenBox(kX, kY, kZ), {"#1", Vec3(0, 0, 5)}).find("is no upright wall with two sides"),
+            std::string::npos);
+}
+
 }  // namespace
 }  // namespace patchmill

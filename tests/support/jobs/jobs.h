@@ -14,7 +14,8 @@ namespace patchmill::testing {
 
 inline constexpr double kTestFeed = 1200.0, kTestPlungeFeed = 400.0;  // mm/min
 
-// A valid job for a ball of this radius; the floor lies far below the part when `deep`.
+// A valid job for a ball of this radius; the floor lies far below the part when `deep`. It may leave
+// everything into which the ball does not fit.
 inline Job BallJob(double radius, bool deep = true) {
   Job job;
   Operation& op = job.operation;
@@ -23,6 +24,7 @@ inline Job BallJob(double radius, bool deep = true) {
   op.tool.feed = kTestFeed;
   op.tool.plunge_feed = kTestPlungeFeed;
   if (deep) op.floor_z = -1000.0;
+  op.max_unreached = 1.0;
   return job;
 }
 

@@ -47,7 +47,7 @@ std::vector<Containment> Limits(const Surface& surface) {
 }
 
 // Heights, single centres and balls of centres in all columns.
-void ExpectOneAnswer(const Surface& surface, std::optional<WideShank> shank) {
+void ExpectOneAnswer(const Surface& surface, const std::vector<UpperCylinder>& uppers) {
   Random random(7);
   int allowed = 0, forbidden = 0, balls = 0;
   const std::vector<Containment> all = Limits(surface);
@@ -56,7 +56,8 @@ void ExpectOneAnswer(const Surface& surface, std::optional<WideShank> shank) {
     SCOPED_TRACE(n);
     const auto operation_limits = OperationLimits::Make(
         surface, limits,
-        {.ball_radius = kBall, .tool_radius = kShank, .shank = shank, .tolerance = kTolerance}, RunContext());
+        {.ball_radius = kBall, .tool_radius = kShank, .uppers = uppers, .tolerance = kTolerance},
+        RunContext());
     ASSERT_TRUE(operation_limits.ok()) << operation_limits.status();
     for (int i = 0; i < 400; ++i) {
       const Vec2 q(random.Uniform(-20, 20), random.Uniform(-20, 20));
@@ -88,10 +89,14 @@ void ExpectOneAnswer(const Surface& surface, std::optional<WideShank> shank) {
   EXPECT_GT(balls, 1000);
 }
 
-TEST(OperationLimits, HeightsOverAColumnAreThoseOfItsCentres) { ExpectOneAnswer(Part(), std::nullopt); }
+TEST(OperationLimits, HeightsOverAColumnAreThoseOfItsCentres) { ExpectOneAnswer(Part(), {}); }
 
 TEST(OperationLimits, HeightsUnderAWideShankAreThoseOfItsCentres) {
-  ExpectOneAnswer(Part(), WideShank{kShank, 4.0});
+  ExpectOneAnswer(Part(), {{kShank, 4.0}});
+}
+
+TEST(OperationLimits, HeightsUnderAHolderAreThoseOfItsCentres) {
+  ExpectOneAnswer(Part(), {{kShank, 3.0}, {6.0, 6.0, UpperPart::kHolder}, {9.0, 8.0, UpperPart::kHolder}});
 }
 
 // Flutes longer than the part is high: nothing more is asked.
@@ -101,10 +106,10 @@ TEST(OperationLimits, LongFlutesLimitNothing) {
   const double height = surface.box.max.z() - surface.box.min.z();
   for (const double rise : {height - 0.1, height + 0.1}) {
     const auto operation_limits = OperationLimits::Make(
-        surface, none, {.ball_radius = kBall, .tool_radius = kShank, .shank = WideShank{kShank, rise}},
+        surface, none, {.ball_radius = kBall, .tool_radius = kShank, .uppers = {{kShank, rise}}},
         RunContext());
     ASSERT_TRUE(operation_limits.ok()) << operation_limits.status();
-    EXPECT_EQ(operation_limits->HasShank(), rise < height);
+    EXPECT_EQ(operation_limits->HasUppers(), rise < height);
     EXPECT_EQ(operation_limits->AllowsAll(), rise > height);
   }
 }

@@ -30,7 +30,7 @@ class ShankOverABlock : public ::testing::TestWithParam<double> {
  protected:
   const Surface surface_ = SurfaceOf(Block(kHalf, kTop, 40));
   const double keep_ = GetParam();
-  const ShankLimit limit_{surface_, WideShank{kRadius, kRise}, keep_, kProof, kProof};
+  const ShankLimit limit_{surface_, UpperCylinder{kRadius, kRise}, keep_, kProof, kProof};
 };
 
 TEST_P(ShankOverABlock, CentresMovesAndBalls) {
