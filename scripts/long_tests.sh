@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Runs one of the long tests of docs/long_tests.md, each in less than an hour, and writes its row of that page.
 #   scripts/long_tests.sh NAME
-# NAME: soak, whole, asan, asan_jobs, tsan, random, certificates, fuzz, container, coverage, linuxcnc_times.
+# NAME: soak, whole, asan, asan_passes, asan_jobs, tsan, random, certificates, fuzz, container, coverage, linuxcnc_times.
 # LIMIT: minutes after which a test is ended, 60 unless it is set; more for a machine that does other work beside.
 # SEED: of soak, random and certificates; another one each day unless it is set. MINUTES: of soak, 30 unless it is set.
 set -euo pipefail
@@ -31,9 +31,14 @@ whole() {  # the tests of CI with every value of their lists
   PATCHMILL_LONG=1 ctest --preset release -j "$(nproc)"
 }
 jobs='^(cam_plan|property|golden|job_)'  # tests of whole jobs take half of the time
+passes='^cam_(path|location|oracle)'      # and those of passes and heights half of the rest
 asan() {
   build asan
-  ctest --preset asan -j "$(nproc)" -E "$jobs"
+  ctest --preset asan -j "$(nproc)" -E "$jobs|$passes"
+}
+asan_passes() {
+  build asan
+  ctest --preset asan -j "$(nproc)" -R "$passes"
 }
 asan_jobs() {
   build asan
@@ -93,7 +98,7 @@ linuxcnc_times() {  # five programs in LinuxCNC, without a display
 case "$name" in
   soak) command="MINUTES=$minutes SEED=$seed scripts/long_tests.sh soak" ;;
   random | certificates) command="SEED=$seed scripts/long_tests.sh $name" ;;
-  whole | asan | asan_jobs | tsan | fuzz | container | coverage | linuxcnc_times) command="scripts/long_tests.sh $name" ;;
+  whole | asan | asan_passes | asan_jobs | tsan | fuzz | container | coverage | linuxcnc_times) command="scripts/long_tests.sh $name" ;;
   *)
     sed -n '2,6s/^# \?//p' "$0" >&2
     exit 2
