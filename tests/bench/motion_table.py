@@ -22,7 +22,7 @@ PARTS = [
     ("saddle", "tests/models/saddle.patches --scale 20 --tool-diameter 6 --scallop 0.02"),
     ("icosahedron", "tests/models/icosahedron.patches --scale 20 --tool-diameter 6 --scallop 0.02"),
     ("block", "tests/models/cad/block.step --tool-diameter 6 --scallop 0.02"),
-    ("mixed kinds", "tests/models/mixed_kinds.bv --scale 20 --tool-diameter 6 --scallop 0.02"),
+    ("mixed kinds", "tests/models/mixed_kinds.bv --scale 8 --tool-diameter 6 --scallop 0.02"),
 ]
 
 
@@ -42,10 +42,10 @@ def row(binary: str, words: list[str], options: list[str], folder: pathlib.Path)
     return [
         figures["outcome"].removeprefix("OUTCOME_"),
         str(blocks),
-        figure("arc_block_count", "{}"),
+        figure("arc_block_count", "{:.0f}"),
         figure("cut_length_mm", "{:.2f}", 1e-3),
         figure("rapid_length_mm", "{:.2f}", 1e-3),
-        figure("retract_count", "{}"),
+        figure("retract_count", "{:.0f}"),
         figure("estimated_time_s", "{:.2f}", 1.0 / 60.0),
     ]
 
