@@ -25,8 +25,10 @@ absl::StatusOr<int> SideOf(const Surface& surface, PatchId patch, const Vec3& po
   PM_ASSIGN_OR_RETURN(const Surface wall, PartOf(surface, alone, run));
   const auto nearest = ClosestToPoint(wall, point, kInfinity, 0.1 * kOnWall);
   PM_CHECK(nearest.has_value());
-  const SurfaceJet jet = Evaluate(wall, PatchId(0), nearest->at.u, nearest->at.v);
-  const double distance = (point - nearest->at.p).dot(jet.du.cross(jet.dv).normalized());
+  const Piece& piece = wall.piece(nearest->at.piece);
+  const SurfaceJet jet = Evaluate(piece, nearest->at.u, nearest->at.v);
+  const double distance =
+      OrientationOf(piece) * (point - nearest->at.p).dot(jet.du.cross(jet.dv).normalized());
   if (!(std::abs(distance) > kOnWall)) return 0;
   return distance > 0.0 ? 1 : -1;
 }

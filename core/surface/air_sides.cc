@@ -88,12 +88,6 @@ std::vector<Component> FindComponents(const Neighbors& neighbors, std::vector<in
   return components;
 }
 
-// Orientation of the piece's parameters relative to those of its patch: 1 or -1.
-int OrientationOf(const Piece& piece) {
-  const Vec2 u = piece.native[1] - piece.native[0], v = piece.native[2] - piece.native[0];
-  return u.x() * v.y() - u.y() * v.x() < 0.0 ? -1 : 1;
-}
-
 // Which way the places of a piece look.
 struct Looks {
   bool upright = false;              // somewhere
@@ -338,6 +332,11 @@ double UprightOf(const Piece& piece) {
     }
   }
   return std::max(kUprightFace, kLeanMargin * steepest);
+}
+
+int OrientationOf(const Piece& piece) {
+  const Vec2 u = piece.native[1] - piece.native[0], v = piece.native[2] - piece.native[0];
+  return u.x() * v.y() - u.y() * v.x() < 0.0 ? -1 : 1;
 }
 
 void SetAirSides(const AirSides& sides, std::vector<Piece>& pieces) {

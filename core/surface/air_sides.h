@@ -46,6 +46,9 @@ double UprightOf(const Piece& piece);
 // components with vertical faces or with places that look down. CANCELLED and DEADLINE_EXCEEDED from `run`.
 absl::StatusOr<AirSides> FindAirSides(const Surface& surface, const RunContext& run);
 
+// Orientation of the piece's parameters relative to those of its patch: 1 or -1.
+int OrientationOf(const Piece& piece);
+
 // Writes the air side of each piece, in the piece's own parameters, and whether the piece overhangs.
 void SetAirSides(const AirSides& sides, std::vector<Piece>& pieces);
 

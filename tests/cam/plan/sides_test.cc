@@ -10,6 +10,7 @@
 #include "cam/post/program_reader.h"
 #include "cam/region/figures/reach_table.h"
 #include "core/base/status.h"
+#include "core/surface/air_sides.h"
 #include "tests/support/jobs/limited_job.h"
 #include "tests/support/profiles.h"
 #include "tests/support/walls.h"
@@ -362,6 +363,34 @@ TEST(WallSides, AWallAloneIsMilledFromThePickedSide) {
     }
     EXPECT_GT(cuts, 5);
     EXPECT_NEAR(result.report.verify.reachable_area, 30.0 * (12.0 - kBall), 0.02 * 30.0 * 12.0);
+  }
+}
+
+// One patch of three upright planes around 20 x 20 mm, open at y = 0. du x dv looks in.
+PatchModel ThreeSides() {
+  BsplinePatch wall{1, 1, {0, 0, 1, 2, 3, 3}, {0, 0, 1, 1}, {}, {}};
+  for (const Vec2& corner : {Vec2(0, 0), Vec2(0, 20), Vec2(20, 20), Vec2(20, 0)}) {
+    wall.points.push_back(Lift(corner, 0.0));
+    wall.points.push_back(Lift(corner, 12.0));
+  }
+  return Single(std::move(wall));
+}
+
+// The point may be beside any plane of the wall.
+TEST(WallSides, AWallOfSeveralPiecesHasOneSide) {
+  for (const Vec2& in : {Vec2(2, 8), Vec2(9, 18), Vec2(18, 7)}) {
+    const Vec2 across = in.x() == 2 ? Vec2(-4, 0) : in.x() == 18 ? Vec2(4, 0) : Vec2(0, 4);
+    for (const int side : {1, -1}) {
+      SCOPED_TRACE(in.x());
+      SCOPED_TRACE(side);
+      patchmill::Setup setup;
+      setup.wall_sides = {{"#0", Lift(side > 0 ? in : Vec2(in + across), 5.0)}};
+      const auto surface = BuildPlacedSurface(ThreeSides(), setup, RunContext());
+      ASSERT_TRUE(surface.ok()) << surface.status();
+      EXPECT_TRUE(surface->two_sided_walls.empty());
+      ASSERT_GE(surface->pieces.size(), 3U);
+      for (const Piece& piece : surface->pieces) EXPECT_EQ(piece.sides.air_side * OrientationOf(piece), side);
+    }
   }
 }
 
