@@ -28,7 +28,7 @@ struct Boundary {
 // A prism without a lower end. Cutter and shank keep off it as one cylinder around the axis that ends at the
 // tip. This is simpler than the ball and never too small.
 struct Obstacle {
-  std::string id;
+  std::string name;  // for messages: the id in quotes, or # and the index in the request
   Outline outline;
   double top_z = 0.0;   // mm
   double margin = 0.0;  // mm, beside it and above it

@@ -84,8 +84,10 @@ absl::StatusOr<Containment> ResolveContainment(const Surface& surface, const Job
     c.boundary = {Shifted(selection.boundary, zero), selection.boundary_mode, selection.boundary_offset};
   }
   if (job.operation.top_z) c.top_z = *job.operation.top_z + zero.z();
-  for (const ObstacleOutline& o : job.setup.obstacles) {
-    AddObstacle({o.id, Shifted({o.outline}, zero), o.top_z + zero.z(), o.margin}, job.operation.tool,
+  for (std::size_t k = 0; k < job.setup.obstacles.size(); ++k) {
+    const ObstacleOutline& o = job.setup.obstacles[k];
+    const std::string name = o.id.empty() ? fmt::format("#{}", k) : fmt::format("\"{}\"", o.id);
+    AddObstacle({name, Shifted({o.outline}, zero), o.top_z + zero.z(), o.margin}, job.operation.tool,
                 c.obstacles);
   }
   PM_ASSIGN_OR_RETURN(c.beside, FindBesideStrips(surface,

@@ -151,19 +151,17 @@ Diagnostics BrokenLimits(const Surface& surface, const ProgramMotion& motion, co
   const Floor no_floor = [](const PathSegment&) { return -kInfinity; };
   const std::vector<PathSegment> all = CollectMoves(motion, MotionSet::kSwept, offset);
   const std::vector<PathSegment> dog_legs = CollectMoves(motion, MotionSet::kDogLegs, offset);
-  for (std::size_t k = 0; k < c.obstacles.size(); ++k) {
-    const Obstacle& o = c.obstacles[k];
+  for (const Obstacle& o : c.obstacles) {
     const Room room = [&](const Vec3& center) {
       return ObstacleRoom(o, center - Vec3(0.0, 0.0, limits.ball), limits.tool);
     };
-    const std::string name = o.id.empty() ? fmt::format("#{}", k) : "\"" + o.id + "\"";
     const Floor over_top = [&](const PathSegment& s) {
       return std::min(s.a.z(), s.b.z()) - limits.ball - o.top_z - o.margin;
     };
     const char* code = o.of_holder ? "HOLDER_HIT" : "OBSTACLE_HIT";
-    const std::string within = fmt::format("within {:.4g} mm of obstacle {}", o.margin, name);
+    const std::string within = fmt::format("within {:.4g} mm of obstacle {}", o.margin, o.name);
     report.Add(code, Broken(all, room, over_top, slack, run),
-               o.of_holder ? "the holder is too near to obstacle " + name : "the tool is " + within);
+               o.of_holder ? "the holder is too near to obstacle " + o.name : "the tool is " + within);
     std::vector<Least> beside;
     for (const PathSegment& s : dog_legs) {
       if (run.Cancelled()) break;
@@ -175,7 +173,7 @@ Diagnostics BrokenLimits(const Surface& surface, const ProgramMotion& motion, co
     }
     report.Add(code, std::move(beside),
                "not driving all axes together, a control may come " +
-                   (o.of_holder ? "too near with the holder to obstacle " + name : within));
+                   (o.of_holder ? "too near with the holder to obstacle " + o.name : within));
   }
   if (!c.beside.empty()) {
     const Room room = [&](const Vec3& center) { return BesideRoom(c, center - Vec3(0.0, 0.0, limits.ball)); };

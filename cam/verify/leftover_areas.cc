@@ -62,12 +62,12 @@ double CenterBelowFloor(const Surface& surface, const PiecePlace& at, const Reac
   return jet.p.z() + reach.radius * facing->e.z();
 }
 
-// RaiseNeeded of a place; `known` if there is no normal.
-double RaiseAt(const Surface& surface, const PiecePlace& at, const ReachParams& reach, UpperPart part,
-               double known) {
+// RaiseNeeded of a place; known.by if there is no normal.
+double RaiseAt(const Surface& surface, const PiecePlace& at, const ReachParams& reach,
+               const PartRaise& known) {
   const SurfaceJet jet = EvaluateAt(surface, at);
   const auto facing = FacingAt(jet);
-  return facing ? RaiseNeeded(surface, jet.p, *facing, reach, part, known) : known;
+  return facing ? RaiseNeeded(surface, jet.p, *facing, reach, known) : known.by;
 }
 
 // The smallest value that a pattern search finds in the piece around a place with the value `best`.
@@ -208,7 +208,7 @@ class AreaSampler {
       if (at->second.kind == FinishClass::kShank || at->second.kind == FinishClass::kHolder) {
         const UpperPart part =
             at->second.kind == FinishClass::kShank ? UpperPart::kShank : UpperPart::kHolder;
-        const double raise = RaiseAt(surface_, place, params_.reach, part, sums.report.raise[part]);
+        const double raise = RaiseAt(surface_, place, params_.reach, {part, sums.report.raise[part]});
         if (raise > sums.report.raise[part]) {
           sums.report.raise[part] = raise;
           sums.raised[part] = {piece, u, u, v, v};
@@ -370,7 +370,7 @@ absl::StatusOr<AreaReport> MeasureAreas(const RootedSurface& rooted, const Segme
     double& raise = sums.report.raise[part];
     if (!(raise > 0.0)) continue;
     raise = -LeastAround(sums.raised[part], -raise, [&](const PiecePlace& at, double best) {
-      return -RaiseAt(surface, at, params.reach, part, -best);
+      return -RaiseAt(surface, at, params.reach, {part, -best});
     });
   }
   return sums.report;

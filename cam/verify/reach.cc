@@ -162,7 +162,7 @@ bool HasHolder(const CenterLimits& limits) {
   return !limits.uppers.empty() && limits.uppers.back().part == UpperPart::kHolder;
 }
 
-// The same limits without the holder.
+// Returns the limits without those of the holder.
 CenterLimits BelowHolder(CenterLimits limits) {
   while (HasHolder(limits)) limits.uppers = limits.uppers.first(limits.uppers.size() - 1);
   return limits;
@@ -274,16 +274,16 @@ bool IsRequiredOn(const Surface& surface, const SurfacePoint& at, const Facing& 
 }
 
 double RaiseNeeded(const Surface& surface, const Vec3& p, const Facing& facing, const ReachParams& params,
-                   UpperPart part, double known) {
+                   const PartRaise& known) {
   const CenterLimits& limits = params.limits;
   const double proof = kProof * params.reach_tolerance;
   const auto holder = std::find_if(limits.uppers.begin(), limits.uppers.end(),
                                    [](const UpperCylinder& c) { return c.part == UpperPart::kHolder; });
   const std::span shanks(limits.uppers.begin(), holder), holders(holder, limits.uppers.end());
-  const std::span<const UpperCylinder> raised = part == UpperPart::kShank ? shanks : holders;
-  if (raised.empty()) return known;
+  const std::span<const UpperCylinder> raised = known.part == UpperPart::kShank ? shanks : holders;
+  if (raised.empty()) return known.by;
   ReachParams slim = params;
-  slim.limits.uppers = part == UpperPart::kShank ? holders : shanks;
+  slim.limits.uppers = known.part == UpperPart::kShank ? holders : shanks;
   const auto centers = Centers(p, facing, params.radius);
   double needed = kInfinity;
   for (int side = 0; side < (facing.both ? 2 : 1); ++side) {
@@ -291,7 +291,7 @@ double RaiseNeeded(const Surface& surface, const Vec3& p, const Facing& facing, 
     if (ReachAt(surface, p, of_side, slim) != ReachClass::kReachable) continue;
     const Vec3& c = centers[static_cast<std::size_t>(side)];
     const Vec2 q = Xy(c);
-    double here = known;
+    double here = known.by;
     const auto raise = [&](const UpperCylinder& cylinder, const Surface& over, double keep) {
       const double bottom = c.z() + cylinder.rise - keep;
       const auto highest = HighestInColumn(over, {q, q, cylinder.radius + keep}, bottom + here, proof);
@@ -301,7 +301,7 @@ double RaiseNeeded(const Surface& surface, const Vec3& p, const Facing& facing, 
       raise(cylinder, surface, limits.upper_keep);
       if (limits.avoided != nullptr) raise(cylinder, *limits.avoided, limits.avoid_distance - limits.ball);
     }
-    if (part == UpperPart::kHolder && limits.containment != nullptr) {
+    if (known.part == UpperPart::kHolder && limits.containment != nullptr) {
       const double tip = c.z() - limits.ball;
       for (const Obstacle& o : limits.containment->obstacles) {
         const bool over = o.of_holder && ObstacleRoom(o, Lift(q, -kInfinity), limits.tool) < 0.0;
@@ -310,7 +310,7 @@ double RaiseNeeded(const Surface& surface, const Vec3& p, const Facing& facing, 
     }
     needed = std::min(needed, here);
   }
-  return needed < kInfinity ? needed : known;
+  return needed < kInfinity ? needed : known.by;
 }
 
 std::optional<UpperPart> UpperPartHitsAll(const Surface& surface, const CenterLimits& limits,

@@ -24,9 +24,9 @@ struct CenterLimits {
   const Surface* avoided = nullptr;            // the avoided patches if a margin is kept from them
   double avoid_distance = 0.0;                 // mm, ball radius + margin
   std::span<const UpperCylinder> uppers = {};  // UpperCylindersOf the tool
-  double upper_keep =
-      0.0;  // mm between these and the surface (stock to leave); the margin to avoided patches
-            // follows from avoid_distance
+  // mm between these and the surface (stock to leave). Their margin to avoided patches follows from
+  // avoid_distance.
+  double upper_keep = 0.0;
   // mm: so far inside of all these limits, the cylinders' too, a centre must be. Negative: so far outside
   // it may be.
   double within = 0.0;
@@ -99,11 +99,17 @@ ReachClass ReachOn(const Surface& surface, const SurfacePoint& at, const Facing&
 bool IsRequiredOn(const Surface& surface, const SurfacePoint& at, const Facing& facing,
                   const ReachParams& params, Obstacles& obstacles);
 
-// For a point that only `part` makes unreachable: returns the least distance (mm) by which the cylinders of
-// the part must begin higher so that the point becomes reachable. Returns `known` if the distance is no more
-// than `known` (mm), or if something else blocks the ball, too. Exact to 0.02 of params.reach_tolerance.
+// The least distance by which the cylinders of a part of the tool must begin higher.
+struct PartRaise {
+  UpperPart part = UpperPart::kShank;
+  double by = 0.0;  // mm
+};
+
+// For a point that only `known.part` makes unreachable: returns the least distance (mm) by which the cylinders
+// of the part must begin higher so that the point becomes reachable. Returns `known.by` if the distance is no
+// more than that, or if something else blocks the ball, too. Exact to 0.02 of params.reach_tolerance.
 double RaiseNeeded(const Surface& surface, const Vec3& p, const Facing& facing, const ReachParams& params,
-                   UpperPart part, double known);
+                   const PartRaise& known);
 
 // The lowest part of the tool above the ball that hits the surface (or an avoided patch with its margin) for
 // every centre that is no higher than `center` and within `beside` (mm) of it in plan; nullopt if none does.

@@ -310,7 +310,7 @@ TEST(Containment, TheJudgeSeesWhatThePlannerWasNotTold) {
   bounded.containment.boundary->offset = 0.2 + 0.5 * kLimitedRadius;  // leads begin beyond the border
   EXPECT_EQ(codes(bounded), "");
   VerifyParams clamped = params;
-  clamped.containment.obstacles.push_back({"vice", Outline({RingOfBox(17, -5, 20, 5)}), 4.0, 0.0});
+  clamped.containment.obstacles.push_back({"\"vice\"", Outline({RingOfBox(17, -5, 20, 5)}), 4.0, 0.0});
   EXPECT_EQ(codes(clamped), "OBSTACLE_HIT ");
   clamped.containment.obstacles[0].outline = Outline({RingOfBox(18.1 + 0.5 * kLimitedRadius, -5, 21, 5)});
   EXPECT_EQ(codes(clamped), "");

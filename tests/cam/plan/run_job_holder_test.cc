@@ -26,14 +26,6 @@ Job HolderJob(double stickout) {
   return job;
 }
 
-double AreaFor(UnreachableReason reason, const JobResult& result) {
-  double area = 0.0;
-  for (const Region& r : result.report.regions) {
-    if (r.reason == reason) area += r.area;
-  }
-  return area;
-}
-
 bool Has(const Diagnostics& findings, const std::string& code) {
   return std::any_of(findings.begin(), findings.end(), [&](const Diagnostic& d) { return d.code == code; });
 }
@@ -61,7 +53,7 @@ TEST(Holder, KeepsOffABlock) {
   const double wall = 8.0 * kHalf * (kTop - (stickout - kClearance - kBall) - kBall);
   const VerifyReport& verify = result.report.verify;
   EXPECT_NEAR(verify.unreachable_area[UncutReason::kHolder], plate + wall, 0.01 * (plate + wall));
-  EXPECT_NEAR(AreaFor(UnreachableReason::kHolder, result), plate + wall, 0.01 * (plate + wall));
+  EXPECT_NEAR(AreaFor(result, UnreachableReason::kHolder), plate + wall, 0.01 * (plate + wall));
   EXPECT_EQ(verify.unreachable_area[UncutReason::kShank], 0.0);
   EXPECT_TRUE(verify.holder_ok.value_or(false));
   EXPECT_FALSE(Has(result.report.diagnostics, "HOLDER_NOT_CHECKED"));
@@ -90,8 +82,8 @@ TEST(Holder, AboveAWideShank) {
   const double far = 8.0 * kHalf * (wide - shank) + kPi * (wide * wide - shank * shank);
   EXPECT_NEAR(both.report.verify.unreachable_area[UncutReason::kShank], near, 0.01 * near);
   EXPECT_NEAR(both.report.verify.unreachable_area[UncutReason::kHolder], far, 0.01 * far);
-  EXPECT_NEAR(AreaFor(UnreachableReason::kShank, both), near, 0.01 * near);
-  EXPECT_NEAR(AreaFor(UnreachableReason::kHolder, both), far, 0.01 * far);
+  EXPECT_NEAR(AreaFor(both, UnreachableReason::kShank), near, 0.01 * near);
+  EXPECT_NEAR(AreaFor(both, UnreachableReason::kHolder), far, 0.01 * far);
 }
 
 // A program that was planned without the holder drives it into the block.
@@ -110,11 +102,12 @@ TEST(Holder, ThatTouchesIsFound) {
   EXPECT_NEAR(judged.max_gouge, std::min(kHolderRadius + kClearance - kBall, kTop - 12.0 + kClearance), 0.02);
 }
 
-// A clamp as high as the holder begins keeps off the holder, not the ball.
+// A clamp as high as the holder begins keeps off the holder, not the ball. Another one is far away.
 TEST(Holder, KeepsOffClamps) {
   const Surface surface = PlacedSurface(Plane(20));
   Job job = HolderJob(10.0);
-  job.setup.obstacles.push_back({"clamp", {{18, -30}, {30, -30}, {30, 30}, {18, 30}}, 12.0, 1.0});
+  job.setup.obstacles.push_back({"", {{-50, -30}, {-40, -30}, {-40, 30}, {-50, 30}}, 12.0, 1.0});
+  job.setup.obstacles.push_back({"", {{18, -30}, {30, -30}, {30, 30}, {18, 30}}, 12.0, 1.0});
   const JobResult result = Mill(surface, job);
   ASSERT_EQ(result.report.outcome, Outcome::kCompleteWhereReachable) << Describe(result);
   double nearest = kInfinity;
@@ -127,7 +120,7 @@ TEST(Holder, KeepsOffClamps) {
   EXPECT_NEAR(result.report.verify.unreachable_area[UncutReason::kAvoided], clamp, 0.05 * clamp);
   const double strip = 40.0 * (kHolderRadius + kClearance - kBall);
   EXPECT_NEAR(result.report.verify.unreachable_area[UncutReason::kHolder], strip, 0.05 * strip);
-  EXPECT_NEAR(AreaFor(UnreachableReason::kHolder, result), strip, 0.05 * strip);
+  EXPECT_NEAR(AreaFor(result, UnreachableReason::kHolder), strip, 0.05 * strip);
   ASSERT_TRUE(result.report.verify.finishing_stickout);
   EXPECT_NEAR(*result.report.verify.finishing_stickout, 12.0 + 1.0 + kClearance, 0.01);
   Job without = job;
@@ -136,6 +129,10 @@ TEST(Holder, KeepsOffClamps) {
   const VerifyReport judged = Judge(surface, job, planned.program);
   EXPECT_TRUE(Has(judged.findings, "HOLDER_HIT"));
   EXPECT_FALSE(Has(judged.findings, "OBSTACLE_HIT"));
+  for (const Diagnostic& finding : judged.findings) {
+    if (finding.code != "HOLDER_HIT") continue;
+    EXPECT_NE(finding.message.find("obstacle #1"), std::string::npos) << finding.message;
+  }
   EXPECT_FALSE(judged.holder_ok.value_or(true));
 }
 

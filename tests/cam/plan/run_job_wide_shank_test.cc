@@ -22,14 +22,6 @@ Job ShankJob(double shank_radius, double flutes, double ball = kLimitedRadius) {
   return job;
 }
 
-double AreaFor(UnreachableReason reason, const JobResult& result) {
-  double area = 0.0;
-  for (const Region& r : result.report.regions) {
-    if (r.reason == reason) area += r.area;
-  }
-  return area;
-}
-
 // Deepest of all sample points of the surface in the shank, at places half a millimetre apart on all moves.
 double DeepestInShank(const Surface& surface, const Job& job, const JobResult& result) {
   const int cells = 2 + static_cast<int>(60.0 / std::sqrt(static_cast<double>(surface.pieces.size())));
@@ -75,7 +67,7 @@ TEST(WideShank, KeepsOffABlock) {
   const double corner = 8.0 * half * ball;
   EXPECT_NEAR(result.report.verify.unreachable_area[UncutReason::kShank], plate + wall,
               0.01 * (plate + wall));
-  EXPECT_NEAR(AreaFor(UnreachableReason::kShank, result), plate + wall, 0.01 * (plate + wall));
+  EXPECT_NEAR(AreaFor(result, UnreachableReason::kShank), plate + wall, 0.01 * (plate + wall));
   // The tip on the plate, the shank over the block.
   ASSERT_TRUE(result.report.verify.finishing_flute_length);
   const double named = *result.report.verify.finishing_flute_length;
@@ -85,7 +77,7 @@ TEST(WideShank, KeepsOffABlock) {
   ASSERT_EQ(longer.report.outcome, Outcome::kCompleteWhereReachable) << Describe(longer);
   EXPECT_EQ(longer.report.verify.unreachable_area[UncutReason::kShank], 0.0);
   EXPECT_FALSE(longer.report.verify.finishing_flute_length);
-  EXPECT_NEAR(AreaFor(UnreachableReason::kConcave, result), corner + 8.0 * half * ball + kPi * ball * ball,
+  EXPECT_NEAR(AreaFor(result, UnreachableReason::kConcave), corner + 8.0 * half * ball + kPi * ball * ball,
               0.02 * 2.0 * corner);
 }
 
@@ -121,7 +113,7 @@ TEST(WideShank, KeepsOffTheFootOfADome) {
   const JobResult result = Mill(surface, job);
   ASSERT_EQ(result.report.outcome, Outcome::kCompleteWhereReachable) << Describe(result);
   EXPECT_NEAR(result.report.verify.unreachable_area[UncutReason::kShank], foot, 0.01 * foot);
-  EXPECT_NEAR(AreaFor(UnreachableReason::kShank, result), foot, 0.002 * foot);
+  EXPECT_NEAR(AreaFor(result, UnreachableReason::kShank), foot, 0.002 * foot);
   // The tip of the ball that touches the foot is a ball below it; the shank ends on the dome.
   const double over = r + ball - shank;
   ASSERT_TRUE(result.report.verify.finishing_flute_length);
@@ -182,8 +174,8 @@ TEST(WideShank, FlatSurfaceAlongItsLimitCostsLittle) {
     const double area = result.report.verify.unreachable_area[UncutReason::kShank];
     // On the walls it is a strip thinner than the tolerance: the map gives it to CONCAVE beside it, and the
     // report sees it in cells.
-    EXPECT_NEAR(AreaFor(UnreachableReason::kShank, result), area, 0.02 * area);
-    EXPECT_NEAR(AreaFor(UnreachableReason::kShank, result), 96.0 + 12.0 * kPi, 0.5);  // 2 to 4 off the walls
+    EXPECT_NEAR(AreaFor(result, UnreachableReason::kShank), area, 0.02 * area);
+    EXPECT_NEAR(AreaFor(result, UnreachableReason::kShank), 96.0 + 12.0 * kPi, 0.5);  // 2 to 4 off the walls
     if (!kSanitized) {
       EXPECT_LT(ClockSeconds(CLOCK_PROCESS_CPUTIME_ID) - before, 15.0);
     }
@@ -203,7 +195,7 @@ TEST(WideShank, RandomSheets) {
     ASSERT_TRUE(result.report.verify.ok()) << Describe(result);
     EXPECT_LE(DeepestInShank(surface, job, result), 0.011);
     const double area = result.report.verify.unreachable_area[UncutReason::kShank];
-    EXPECT_NEAR(AreaFor(UnreachableReason::kShank, result), area, 0.01 * area + 1.0);
+    EXPECT_NEAR(AreaFor(result, UnreachableReason::kShank), area, 0.01 * area + 1.0);
     limited += area > 1.0;
   }
   EXPECT_GE(limited, 2);

@@ -54,12 +54,6 @@ double LowestTipBeyond(const std::string& program, double x, double y, double be
   return lowest;
 }
 
-double AreaFor(const JobResult& result, UnreachableReason reason) {
-  double area = 0.0;
-  for (const Region& r : result.report.regions) area += r.reason == reason ? r.area : 0.0;
-  return area;
-}
-
 bool Warns(const JobResult& result, const std::string& code) {
   return std::any_of(result.report.diagnostics.begin(), result.report.diagnostics.end(),
                      [&](const Diagnostic& d) { return d.code == code; });

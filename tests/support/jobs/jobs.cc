@@ -187,6 +187,12 @@ JobResult Mill(const Surface& surface, const Job& job, int threads) {
   return result.ok() ? *std::move(result) : JobResult();
 }
 
+double AreaFor(const JobResult& result, UnreachableReason reason) {
+  double area = 0.0;
+  for (const Region& region : result.report.regions) area += region.reason == reason ? region.area : 0.0;
+  return area;
+}
+
 std::string Describe(const JobResult& result) {
   const VerifyReport& v = result.report.verify;
   std::string text = fmt::format(

@@ -37,6 +37,9 @@ JobResult Mill(const Surface& surface, const Job& job, int threads = 0);
 // "COMPLETE, gouge 0.004, leftover 0.012 ...": for messages of failing tests.
 std::string Describe(const JobResult& result);
 
+// mm^2, of the regions that the ball does not reach for this reason.
+double AreaFor(const JobResult& result, UnreachableReason reason);
+
 // Fails the test unless the result carries a verified program that keeps [verification P1, P2, P3] at
 // `samples` random places of its moves and of the surface. Under a forced strategy leftover is judged where
 // that can finish (not at all where lines have an angle of their own in each region). Program zero must be
