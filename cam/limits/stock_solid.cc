@@ -10,7 +10,7 @@
 namespace patchmill {
 namespace {
 
-// Of the grid that the covered area is found on.
+// The grid on which the covered area is found.
 constexpr GridResolution kResolution = {.cells = 1500.0, .beside = 8};
 constexpr double kLeastStep = 0.01;  // mm
 

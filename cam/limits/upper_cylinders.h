@@ -19,9 +19,10 @@ struct UpperCylinder {
   UpperPart part = UpperPart::kShank;
 };
 
-inline constexpr double kHolderStep =
-    0.25;  // mm: cones of the holder are stairs with steps at most this wide
-inline constexpr int kMostHolderSteps = 40;  // of one cone; then the steps are wider
+// Cylinders replace a cone of the holder as stairs. A step is at most kHolderStep (mm) wide, or wider where a
+// cone would have more than kMostHolderSteps of them.
+inline constexpr double kHolderStep = 0.25;
+inline constexpr int kMostHolderSteps = 40;
 
 // The shank, if it is wider than the ball, then the cylinders of the holder, from the lowest on, with its
 // clearance around and below. Each is wider than those before it: the upward sweep of a lower one contains

@@ -135,9 +135,9 @@ struct RegionOverride {
 };
 inline constexpr double kPickReach = 1.0;  // mm
 inline constexpr double kMinLeadSweepDeg = 10.0, kMaxLeadSweepDeg = 90.0;
-inline constexpr double kDefaultMaxUnreached = 0.5;
-inline constexpr double kMinPlungeAngleDeg = 1.0;  // the most is kDefaultPlungeAngle
-inline constexpr double kMaxZigzagBendDeg = 30.0;  // of Operation::zigzag_bend
+inline constexpr double kDefaultMaxUnreached = 0.5;  // share, of Operation::max_unreached
+inline constexpr double kMinPlungeAngleDeg = 1.0;    // the most is kDefaultPlungeAngle
+inline constexpr double kMaxZigzagBendDeg = 30.0;    // of Operation::zigzag_bend
 
 struct Operation {
   std::string id;  // the client's name for it; changes nothing

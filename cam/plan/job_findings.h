@@ -10,7 +10,8 @@
 
 namespace patchmill {
 
-// What the machinist must know before pressing start ([machining M1, M5, M9, M14]).
+// Findings on all that the program takes for granted, to be read before the start
+// ([machining M1, M5, M9, M14]).
 Diagnostics Assumptions(const Job& job, const Resolved& r);
 
 // True for the codes of those assumptions that stand for what nobody has given: check them before the start.

@@ -21,7 +21,7 @@ struct HolderSegment {
   double length = 0.0;                                // mm, > 0, along the axis
   double lower_diameter = 0.0, upper_diameter = 0.0;  // mm, > 0
 };
-inline constexpr double kDefaultHolderClearance = 0.5;
+inline constexpr double kDefaultHolderClearance = 0.5;  // mm
 inline constexpr std::size_t kMaxHolderSegments = 100;
 
 struct Tool {

@@ -19,7 +19,7 @@ constexpr double kStraightOn = 1.0 - 1e-12;         // the same
 constexpr double kSamePlane = 1e-6;                 // rad
 constexpr double kSharpest = 1e-3;                  // rad, half the inner angle of a corner that is rounded
 
-// What the axes allow, mm and s.
+// The most speed (mm/s) and acceleration (mm/s^2) of each axis.
 struct AxisLimits {
   Vec3 rapid, feed, acceleration;
 };
@@ -124,7 +124,7 @@ std::vector<Block> BlocksOf(const Toolpath& toolpath, const AxisLimits& limits, 
   return blocks;
 }
 
-// How the tool gets from one block to the next.
+// The way in which the control joins a block to the next.
 struct Joint {
   enum class Kind { kRest, kNoCorner, kArc, kOverlap };
   Kind kind = Kind::kRest;

@@ -104,7 +104,7 @@ struct VerifyReport {
   // The reachable area in squares whose side is the flat step-over of its scallop; absent without a scallop.
   std::optional<double> reachable_squares;
   EnumArray<UncutReason, double> unreachable_area{};  // mm^2
-  // The same areas as seen along Z, in which upright walls count nothing.
+  // mm^2: the reachable and the unreachable area as seen along Z. Upright walls count nothing.
   double reachable_plan_area = 0.0;
   EnumArray<UncutReason, double> unreachable_plan_area{};
   EnumArray<UncutReason, double> deepest_unreachable{};  // mm, deepest leftover

@@ -313,7 +313,7 @@ absl::Status SetShank(const ShankOptions& options, v1::Tool& tool) {
     if (!segment.ok()) return segment.status();
     *tool.add_holder() = *std::move(segment);
   }
-  // A holder of a file that nobody says where it begins.
+  // Nobody has said how far above the tip the holder of the file begins.
   if (options.holder.empty() && !tool.has_stickout_mm()) tool.clear_holder();
   if (options.holder_clearance) tool.set_holder_clearance_mm(*options.holder_clearance);
   return absl::OkStatus();

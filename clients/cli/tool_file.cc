@@ -178,7 +178,7 @@ void ReadPreset(const Struct& from, double unit, v1::Tool& tool) {
   const Struct* start = FindObject(from, "start-values");
   const Value* presets = start != nullptr ? Find(*start, "presets") : nullptr;
   if (presets == nullptr || !presets->has_list_value() || presets->list_value().values().empty()) return;
-  // Of several the first is taken, which nobody has chosen.
+  // The first of several presets is a default: nobody has chosen it.
   tool.set_cutting_data_is_default(presets->list_value().values_size() > 1);
   const Value& first = presets->list_value().values(0);
   if (!first.has_struct_value()) return;
