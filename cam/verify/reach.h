@@ -105,9 +105,10 @@ struct PartRaise {
   double by = 0.0;  // mm
 };
 
-// For a point that only `known.part` makes unreachable: returns the least distance (mm) by which the cylinders
-// of the part must begin higher so that the point becomes reachable. Returns `known.by` if the distance is no
-// more than that, or if something else blocks the ball, too. Exact to 0.02 of params.reach_tolerance.
+// For a point that only `known.part` makes unreachable: returns the least distance (mm) by which the
+// cylinders of the part must begin higher so that the point becomes reachable. Returns `known.by` if the
+// distance is no more than that, or if something else blocks the ball, too. Exact to 0.02 of
+// params.reach_tolerance.
 double RaiseNeeded(const Surface& surface, const Vec3& p, const Facing& facing, const ReachParams& params,
                    const PartRaise& known);
 
