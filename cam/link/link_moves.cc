@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "cam/toolpath/motion_time.h"
+
 namespace patchmill {
 namespace {
 

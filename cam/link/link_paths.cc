@@ -9,13 +9,11 @@
 #include "cam/link/link_moves.h"
 #include "cam/link/order_passes.h"
 #include "cam/link/surface_heights.h"
+#include "cam/toolpath/motion_time.h"
 #include "core/base/status.h"
 
 namespace patchmill {
 namespace {
-
-// mm/min; machines differ. It is used to estimate times only.
-constexpr double kAssumedRapid = 5000.0;
 
 void AppendPass(const CutterPath& pass, int index, const MoveCheck& check, std::vector<Move>& moves) {
   const Surface& surface = check.locator().surface();
@@ -50,10 +48,6 @@ LinkStats Measure(const std::vector<Move>& moves) {
 }
 
 }  // namespace
-
-double EstimatedTime(const Move& move, double length) {
-  return 60.0 * length / (move.kind == MoveKind::kRapid ? kAssumedRapid : move.feed);
-}
 
 absl::StatusOr<LinkResult> LinkPaths(const Locator& locator, const RegionMap& regions,
                                      std::vector<CutterPath> paths, const LinkParams& params,

@@ -68,9 +68,6 @@ struct LinkStats {
   double saved_by_low_rapids = 0.0;  // mm of rapids that low rapids would save
 };
 
-// Time of a move that is `length` mm long at its feed, s; rapids as in LinkStats.
-double EstimatedTime(const Move& move, double length);
-
 struct LinkResult {
   Toolpath toolpath;
   std::vector<CutterPath> passes;  // in the order, direction and with the start points of the cut

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "cam/plan/main_directions.h"
+#include "cam/toolpath/motion_time.h"
 #include "core/base/error_details.h"
 #include "core/base/status.h"
 

@@ -95,10 +95,26 @@ std::vector<double> MoveTimes(std::span<const TimedMove> moves, const Machine& m
   return times;
 }
 
+double EstimatedTime(const Move& move, double length) {
+  return 60.0 * length / (move.kind == MoveKind::kRapid ? kAssumedRapid : move.feed);
+}
+
+std::vector<double> SecondsOf(const Toolpath& toolpath, const std::optional<Machine>& machine,
+                              const std::optional<LinuxCncPlanner>& planner) {
+  if (machine && planner) return LinuxCncTimes(*machine, toolpath, *planner);
+  if (machine) return JunctionTimes(*machine, toolpath);
+  std::vector<double> times(toolpath.moves.size(), 0.0);
+  for (std::size_t i = 1; i < toolpath.moves.size(); ++i) {
+    const Move& move = toolpath.moves[i];
+    const ArcEnds ends{toolpath.moves[i - 1].to, move.to};
+    times[i] = EstimatedTime(move, move.arc ? ArcLength(*move.arc, ends) : (ends.to - ends.from).norm());
+  }
+  return times;
+}
+
 ToolpathTimes TimesOn(const Machine& machine, const Toolpath& toolpath, std::size_t regions,
                       const std::optional<LinuxCncPlanner>& planner) {
-  const std::vector<double> times =
-      planner ? LinuxCncTimes(machine, toolpath, *planner) : JunctionTimes(machine, toolpath);
+  const std::vector<double> times = SecondsOf(toolpath, machine, planner);
   ToolpathTimes sums;
   sums.of_region.assign(regions, 0.0);
   for (std::size_t i = 0; i < times.size(); ++i) {

@@ -25,6 +25,16 @@ struct TimedMove {
 // is zero where the path turns back. The first move begins and the last one ends at rest. Cost O(n).
 std::vector<double> MoveTimes(std::span<const TimedMove> moves, const Machine& machine);
 
+inline constexpr double kAssumedRapid = 5000.0;  // mm/min, of machines that nobody described
+
+// The time of a move of this length at its feed, s; accelerations are left out.
+double EstimatedTime(const Move& move, double length);
+
+// The time of each move of a toolpath, s; the first, at whose end the motion begins, takes none. Without a
+// machine, EstimatedTime; else as TimesOn.
+std::vector<double> SecondsOf(const Toolpath& toolpath, const std::optional<Machine>& machine,
+                              const std::optional<LinuxCncPlanner>& planner = std::nullopt);
+
 // The time of a toolpath, s, by what its moves are for. On an arc the centripetal acceleration is at most
 // that of the axes. With a planner, the time is that of LinuxCNC, which takes its tolerance from the program
 // and not the junction deviation of the machine.

@@ -28,13 +28,11 @@ SecondDerivatives SampleSecondDerivatives(const Piece& piece) {
   return max;
 }
 
-struct Cells {
-  int u = 1, v = 1;
-};
+}  // namespace
 
 // A triangle over a cell with sides a, b in parameters deviates by at most (a^2 |S_uu| + 2 a b |S_uv| + b^2
 // |S_vv|) / 8. Each of the three terms gets a third of `chord`.
-Cells CellsFor(const Piece& piece, double chord, int max_cells) {
+GridCells CellsWithin(const Piece& piece, double chord, int max_cells) {
   const SecondDerivatives d = SampleSecondDerivatives(piece);
   double u = std::max(1.0, std::sqrt(3.0 * d.uu / (8.0 * chord)));
   double v = std::max(1.0, std::sqrt(3.0 * d.vv / (8.0 * chord)));
@@ -50,11 +48,9 @@ Cells CellsFor(const Piece& piece, double chord, int max_cells) {
   return {whole(u), whole(v)};
 }
 
-}  // namespace
-
 Tessellation::PieceMesh TessellatePiece(const Surface& surface, PieceId id, double chord, int max_cells) {
   const Piece& piece = surface.piece(id);
-  const Cells cells = CellsFor(piece, std::max(chord, 1e-12 * surface.scale), std::max(1, max_cells));
+  const GridCells cells = CellsWithin(piece, std::max(chord, 1e-12 * surface.scale), std::max(1, max_cells));
   Tessellation::PieceMesh mesh{id, cells.u, cells.v, {}};
   mesh.vertices.reserve(static_cast<std::size_t>((cells.u + 1) * (cells.v + 1)));
   for (int k = 0; k <= cells.u; ++k) {

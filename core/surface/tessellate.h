@@ -7,6 +7,14 @@
 
 namespace patchmill {
 
+// A grid of cells over the parameters of a piece.
+struct GridCells {
+  int u = 1, v = 1;
+};
+// So many cells that the two triangles over each deviate by at most about `chord` mm (> 0; estimated from
+// sampled second derivatives), but at most `max_cells` (>= 1) per side.
+GridCells CellsWithin(const Piece& piece, double chord, int max_cells);
+
 struct TessellationVertex {
   Vec3 p;
   Vec3 normal;  // upward unit normal; zero where degenerate
@@ -20,9 +28,8 @@ struct Tessellation {
   };
   std::vector<PieceMesh> meshes;
 };
-// A uniform grid for each piece. It is so fine that its triangles deviate by at most about `chord` mm (> 0;
-// estimated from sampled second derivatives), but has at most `max_cells` (>= 1) cells per side. The grids of
-// neighbouring pieces may differ, so the mesh need not be closed. Cost 0.1 us per vertex.
+// The grid of CellsWithin for each piece. The grids of neighbouring pieces may differ, so the mesh need not
+// be closed. Cost 0.1 us per vertex.
 Tessellation Tessellate(const Surface& surface, double chord, int max_cells);
 // The same of one piece.
 Tessellation::PieceMesh TessellatePiece(const Surface& surface, PieceId piece, double chord, int max_cells);
