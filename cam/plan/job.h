@@ -231,9 +231,11 @@ struct JobReport {
 
 struct JobResult {
   JobReport report;
-  std::string program;  // empty unless the outcome carries one
-  LinkResult motion;    // straight moves only
-  Toolpath posted;      // the motion as the program has it, with arcs
+  std::string program;                 // empty unless the outcome carries one
+  LinkResult motion;                   // straight moves only
+  Toolpath posted;                     // the motion as the program has it, with arcs
+  std::vector<int> posted_lines;       // of its moves (WrittenProgram::move_lines); empty without a program
+  std::vector<double> posted_seconds;  // of its moves: SecondsOf
   RegionMap regions;
   Vec3 program_zero = Vec3::Zero();
 };

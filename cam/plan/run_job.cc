@@ -279,7 +279,7 @@ bool HasArcs(const Toolpath& toolpath) {
 
 // The text of a program, and what the verifier says of it.
 struct VerifiedProgram {
-  std::string text;
+  WrittenProgram written;
   VerifyReport report;
 };
 
@@ -289,28 +289,30 @@ absl::StatusOr<VerifiedProgram> PostAndVerify(const JobContext& context, const T
                                               std::size_t most_moves) {
   const Job& job = context.job;
   VerifiedProgram program;
-  PM_ASSIGN_OR_RETURN(program.text, WriteProgram(toolpath, job.operation.tool, post));
-  const auto read = ReadProgram(program.text, {.arc_chord_error = 0.1 * verify.certainty,
-                                               .max_moves = most_moves,
-                                               .run = &context.run,
-                                               .dialect = job.dialect,
-                                               .control_deviation = job.control_deviation});
+  PM_ASSIGN_OR_RETURN(program.written, WriteProgramWithLines(toolpath, job.operation.tool, post));
+  const auto read = ReadProgram(program.written.text, {.arc_chord_error = 0.1 * verify.certainty,
+                                                       .max_moves = most_moves,
+                                                       .run = &context.run,
+                                                       .dialect = job.dialect,
+                                                       .control_deviation = job.control_deviation});
   if (!read.ok()) return CannotReadBack(job.dialect, read.status());
   PM_ASSIGN_OR_RETURN(program.report,
                       Verify(context.surface, job.operation.tool, *read, verify, context.run));
   return program;
 }
 
+// How LinuxCNC drives the program, if it is for LinuxCNC.
+std::optional<LinuxCncPlanner> PlannerOf(const Job& job, const Resolved& resolved) {
+  if (!job.dialect.linuxcnc_planner) return std::nullopt;
+  const bool stated =
+      !job.dialect.path_tolerance.empty() && resolved.budget.controller >= job.dialect.least_tolerance;
+  return LinuxCncPlanner{.tolerance = stated ? resolved.budget.controller : 0.0,
+                         .step = std::pow(10.0, -job.dialect.decimals)};
+}
+
 // The time of the posted motion on the machine of the job.
 ToolpathTimes PostedTimes(const Job& job, const Resolved& resolved, const JobResult& result) {
-  std::optional<LinuxCncPlanner> planner;
-  if (job.dialect.linuxcnc_planner) {
-    const bool stated =
-        !job.dialect.path_tolerance.empty() && resolved.budget.controller >= job.dialect.least_tolerance;
-    planner = {.tolerance = stated ? resolved.budget.controller : 0.0,
-               .step = std::pow(10.0, -job.dialect.decimals)};
-  }
-  return TimesOn(*job.setup.machine, result.posted, result.regions.regions.size(), planner);
+  return TimesOn(*job.setup.machine, result.posted, result.regions.regions.size(), PlannerOf(job, resolved));
 }
 
 absl::StatusOr<JobResult> PlanAndJudge(const Surface& surface, const Job& job, const RunContext& run) {
@@ -468,7 +470,9 @@ absl::StatusOr<JobResult> PlanAndJudge(const Surface& surface, const Job& job, c
   double unreachable = 0.0;
   for (const double area : report.verify.unreachable_area) unreachable += area;
   report.outcome = unreachable > 0.0 ? Outcome::kCompleteWhereReachable : Outcome::kComplete;
-  result.program = std::move(program.text);
+  result.program = std::move(program.written.text);
+  result.posted_lines = std::move(program.written.move_lines);
+  result.posted_seconds = SecondsOf(result.posted, job.setup.machine, PlannerOf(job, resolved));
   return result;
 }
 

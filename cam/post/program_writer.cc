@@ -35,6 +35,7 @@ struct RoundedMove {
   Ticks to{};
   double feed = 0.0;
   std::optional<RoundedArc> arc = {};
+  std::size_t of = 0;  // the toolpath's move that it is a part of
 };
 
 absl::Status Validate(const Toolpath& toolpath, const Tool& tool, const PostParams& params) {
@@ -125,15 +126,17 @@ class MoveRounder {
         }
         sections.push_back({moves_.size(), &*next, restart, at_});
       }
+      const std::size_t first = moves_.size();
       if (move.arc && k > 0) {
         Turn(toolpath_.moves[k - 1].to, move);
       } else {
         Go(move.to - shift_, move.feed, move.kind == MoveKind::kRapid);
       }
+      for (std::size_t i = first; i < moves_.size(); ++i) moves_[i].of = k;
     }
     if (at_[2] < clearance) {
       at_[2] = clearance;
-      moves_.push_back({.rapid = true, .to = at_});
+      moves_.push_back({.rapid = true, .to = at_, .of = toolpath_.moves.size()});
     }
     return {std::move(moves_), std::move(sections)};
   }
@@ -215,6 +218,7 @@ class BlockWriter {
     if (IsKlartext()) text_ += fmt::format("{} ", number_++);  // every line is a numbered block
     text_ += text;
     text_ += dialect_.line_end;
+    ++lines_;
   }
   void Line(std::string_view text) {
     const bool numbered = step_ > 0 && text != "%" && text.front() != 'O';
@@ -274,6 +278,7 @@ class BlockWriter {
   void EndMoves() {
     if (plane_ && *plane_ != ArcPlane::kXy) Line(kPlaneWord[ArcPlane::kXy]);
   }
+  int lines() const { return lines_; }  // that are written
   std::string Take() { return std::move(text_); }
 
  private:
@@ -286,6 +291,7 @@ class BlockWriter {
   const Dialect& dialect_;
   const int step_;  // of line numbers; 0: none
   std::string text_;
+  int lines_ = 0;
   int number_ = 0;
   Ticks at_{};
   bool rapid_ = true;
@@ -392,6 +398,12 @@ bool IsWorkOffset(std::string_view word) {
 
 absl::StatusOr<std::string> WriteProgram(const Toolpath& toolpath, const Tool& tool,
                                          const PostParams& params) {
+  PM_ASSIGN_OR_RETURN(WrittenProgram program, WriteProgramWithLines(toolpath, tool, params));
+  return std::move(program.text);
+}
+
+absl::StatusOr<WrittenProgram> WriteProgramWithLines(const Toolpath& toolpath, const Tool& tool,
+                                                     const PostParams& params) {
   PM_RETURN_IF_ERROR(Validate(toolpath, tool, params));
   const Dialect& dialect = params.dialect;
   const auto [moves, sections] = MoveRounder(toolpath, params).Round();
@@ -423,6 +435,7 @@ absl::StatusOr<std::string> WriteProgram(const Toolpath& toolpath, const Tool& t
   const auto comment = [&](const std::string& text) {
     for (const std::string& line : CommentLines(dialect, text)) out.Bare(line);
   };
+  std::vector<int> lines(toolpath.moves.size(), 0);
   int restarts = 0;
   auto next = sections.begin();
   for (std::size_t i = 1; i < moves.size(); ++i) {
@@ -437,11 +450,16 @@ absl::StatusOr<std::string> WriteProgram(const Toolpath& toolpath, const Tool& t
       write(dialect.restart);
       out.StartAt(next->place);
     }
+    const int before = out.lines();
     out.Go(moves[i]);
+    if (moves[i].of < lines.size() && lines[moves[i].of] == 0) lines[moves[i].of] = before + 1;
   }
   out.EndMoves();
   write(dialect.end);
-  return out.Take();
+  for (std::size_t i = 1; i < lines.size(); ++i) {
+    if (lines[i] == 0) lines[i] = lines[i - 1];
+  }
+  return WrittenProgram{out.Take(), std::move(lines)};
 }
 
 }  // namespace patchmill

@@ -53,6 +53,16 @@ struct PostParams {
 absl::StatusOr<std::string> WriteProgram(const Toolpath& toolpath, const Tool& tool,
                                          const PostParams& params);
 
+struct WrittenProgram {
+  std::string text;
+  // By the index of the toolpath's move: the line, from 1, that makes it, or its first one if there are more.
+  // A move that vanished in rounding has the line before; the first move has 0, if the lines before the
+  // motion make it.
+  std::vector<int> move_lines;
+};
+absl::StatusOr<WrittenProgram> WriteProgramWithLines(const Toolpath& toolpath, const Tool& tool,
+                                                     const PostParams& params);
+
 // The line that switches the coolant on; empty if it stays off, or if the dialect has no word for it.
 std::string CoolantLine(const Dialect& dialect, Coolant coolant);
 bool IsWorkOffset(std::string_view word);  // G54..G59

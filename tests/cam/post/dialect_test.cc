@@ -2,6 +2,7 @@
 #include "cam/post/dialect.h"
 
 #include <algorithm>
+#include <climits>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -201,6 +202,34 @@ TEST_P(EveryDialect, ArcsAreReadBackAsTheSameMotion) {
           << "seed " << seed << ", move " << i;
     }
     EXPECT_EQ(next, below.size());
+  }
+}
+
+// A line of the program for each move, also where arcs are several lines and moves vanish.
+TEST_P(EveryDialect, KnowsTheLineOfEachMove) {
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    const Toolpath path = PathWithArcs(seed);
+    PostParams params = ParamsFor(dialect());
+    params.sections = {{.first_move = 5, .comment = "half"}};
+    const auto program = WriteProgramWithLines(path, BallTool(), params);
+    ASSERT_TRUE(program.ok()) << program.status();
+    EXPECT_EQ(program->text, *WriteProgram(path, BallTool(), params));
+    ASSERT_EQ(program->move_lines.size(), path.moves.size());
+    const auto motion = ReadProgram(program->text, {.dialect = dialect()});
+    ASSERT_TRUE(motion.ok()) << motion.status();
+    for (std::size_t i = 1; i + 1 < path.moves.size(); ++i) {
+      const int first = program->move_lines[i], next = program->move_lines[i + 1];
+      EXPECT_GE(first, program->move_lines[i - 1]);
+      // The last place of the lines from this one to the next move's is the end of the move.
+      std::optional<Vec3> end;
+      for (const ProgramMove& move : motion->moves) {
+        if (move.line >= first && move.line < std::max(next, first + 1)) end = move.to;
+      }
+      ASSERT_TRUE(end) << i;
+      EXPECT_LT((*end - (path.moves[i].to - Vec3(0, 0, kRadius))).cwiseAbs().maxCoeff(),
+                std::pow(10.0, -dialect().decimals))
+          << "move " << i << ", line " << first;
+    }
   }
 }
 
