@@ -18,7 +18,9 @@ inline constexpr int kMaxConnections = 10'000;      // open at once; fewer if th
 inline constexpr int kSpareDescriptors = 64;        // never taken by connections
 inline constexpr int kHandshakeSeconds = 20;        // from the start of a connection until it speaks HTTP/2
 inline constexpr std::size_t kChunkBytes = std::size_t{256} << 10;  // of a piece of a program or artifact
-inline constexpr std::size_t kPathChunkPoints = 4096;               // of one PathChunk
+inline constexpr std::size_t kPathChunkPoints = 4096;               // of one PathChunk or PathBlock
+inline constexpr std::size_t kMeshBlockVertices = 16'384;           // of a MeshBlock of several pieces
+inline constexpr double kMinChordMm = 1e-4, kMaxChordMm = 1e3;      // of triangles
 inline constexpr std::size_t kMaxStatusBytes = 4096;  // of grpc-status-details-bin; trailers end at 8 KiB
 inline constexpr std::size_t kMaxStatusMessageBytes = 1000;
 inline constexpr int kMaxViolations = 20;

@@ -3,10 +3,13 @@
 
 #include <fmt/format.h>
 
+#include "cam/plan/drawing.h"
 #include "cam/plan/job_preview.h"
 #include "cam/plan/plan.h"
 #include "cam/plan/resolve.h"
+#include "cam/post/program_reader.h"
 #include "core/base/status.h"
+#include "server/convert/drawing.h"
 #include "server/convert/job.h"
 #include "server/convert/paths.h"
 #include "server/convert/report.h"
@@ -20,8 +23,9 @@ namespace {
 
 using Response = v1::GenerateProgramResponse;
 
-const Outputs kPossible = {v1::OUTPUT_PROGRESS, v1::OUTPUT_REGIONS, v1::OUTPUT_PATHS, v1::OUTPUT_PROGRAM,
-                           v1::OUTPUT_REPORT,   v1::OUTPUT_PICTURE, v1::OUTPUT_ARCS};
+const Outputs kPossible = {v1::OUTPUT_PROGRESS, v1::OUTPUT_REGIONS,     v1::OUTPUT_PATHS,
+                           v1::OUTPUT_PROGRAM,  v1::OUTPUT_REPORT,      v1::OUTPUT_PICTURE,
+                           v1::OUTPUT_ARCS,     v1::OUTPUT_PATH_BLOCKS, v1::OUTPUT_TESSELLATION};
 const Outputs kDefaults = {v1::OUTPUT_PROGRESS, v1::OUTPUT_PROGRAM, v1::OUTPUT_REPORT};
 
 absl::Status CheckRequestId(const std::string& id) {
@@ -41,7 +45,8 @@ Response MakeAccepted(const PreparedJob& prepared, const Outputs& outputs) {
   *accepted.mutable_resolved_job() = ToProto(prepared.job, prepared.model.digest, prepared.name);
   *accepted.mutable_resolved_post() = PostToProto(prepared.job);
   if (outputs.contains(v1::OUTPUT_REGIONS) || outputs.contains(v1::OUTPUT_PATHS) ||
-      outputs.contains(v1::OUTPUT_ARCS)) {
+      outputs.contains(v1::OUTPUT_ARCS) || outputs.contains(v1::OUTPUT_PATH_BLOCKS) ||
+      outputs.contains(v1::OUTPUT_TESSELLATION)) {
     *accepted.mutable_patch_ids() = PatchIds(prepared.model.model);
   }
   return response;
@@ -52,11 +57,44 @@ struct Made {
   Resolved resolved;
   JobResult result;
   std::string picture;
+  std::vector<v1::MeshBlock> mesh;
   std::vector<std::string> face_ids;  // as FaceIds gives them
 };
 
+// What the worker thread makes besides the program.
+struct Wanted {
+  bool picture = false, mesh = false;
+  std::optional<double> chord;  // mm, of the mesh
+};
+
+// The triangles, and what the program leaves at their corners, as its text says.
+absl::Status MakeMesh(const Surface& surface, const Job& job, const Wanted& wanted, const RunContext& run,
+                      Made* made) {
+  const JobResult& result = made->result;
+  std::optional<ProgramMotion> motion;
+  if (!result.program.empty()) {
+    PM_ASSIGN_OR_RETURN(
+        motion, ReadProgram(result.program,
+                            {.max_moves = std::max(ReaderParams().max_moves, 20 * result.posted.moves.size()),
+                             .run = &run,
+                             .dialect = job.dialect,
+                             .control_deviation = job.control_deviation}));
+  }
+  std::optional<BallMotion> ball;
+  if (motion)
+    ball.emplace(BallMotion{*motion, result.program_zero, made->resolved.radius, job.operation.leave});
+  PM_ASSIGN_OR_RETURN(
+      const SurfaceDrawing drawing,
+      DrawSurface(surface, wanted.chord.value_or(DefaultChord(surface)), &result.regions, ball, run));
+  EmitMesh(drawing, surface, result.program_zero, [&](v1::MeshBlock block) {
+    made->mesh.push_back(std::move(block));
+    return true;
+  });
+  return absl::OkStatus();
+}
+
 // Moves the model out of `prepared`; nothing else needs it.
-absl::Status Make(PreparedJob& prepared, bool with_picture, const RunContext& run, Made* made) {
+absl::Status Make(PreparedJob& prepared, const Wanted& wanted, const RunContext& run, Made* made) {
   PM_ASSIGN_OR_RETURN(const Surface surface,
                       BuildPlacedSurface(std::move(prepared.model.model), prepared.job.setup, run));
   made->face_ids = FaceIds(surface.network.model);
@@ -66,7 +104,8 @@ absl::Status Make(PreparedJob& prepared, bool with_picture, const RunContext& ru
     return LimitError("program_size_bytes", static_cast<double>(limits::kMaxProgramBytes),
                       static_cast<double>(made->result.program.size()));
   }
-  if (with_picture) made->picture = DrawJob(surface, made->result, made->resolved, prepared.name);
+  if (wanted.mesh) PM_RETURN_IF_ERROR(MakeMesh(surface, prepared.job, wanted, run, made));
+  if (wanted.picture) made->picture = DrawJob(surface, made->result, made->resolved, prepared.name);
   return absl::OkStatus();
 }
 
@@ -98,6 +137,14 @@ bool SendPaths(const Toolpath& toolpath, const Vec3& zero, const Sink<Response>&
   });
 }
 
+bool SendPathBlocks(const JobResult& result, const Sink<Response>& sink) {
+  return EmitPathBlocks(result, [&](v1::PathBlock block) {
+    Response response;
+    *response.mutable_path_block() = std::move(block);
+    return sink(response);
+  });
+}
+
 bool SendPicture(std::string_view picture, const Sink<Response>& sink) {
   return InChunks(picture, [&](std::size_t at, std::string_view piece) {
     Response response;
@@ -119,10 +166,9 @@ bool SendProgram(std::string_view program, const Sink<Response>& sink) {
   });
 }
 
-// Sends regions, paths, artifacts, program and report, in this order. A job that failed has no paths and no
-// program.
-bool SendResult(const PreparedJob& prepared, const Made& made, const Outputs& outputs,
-                const Sink<Response>& sink) {
+// Sends regions, paths, triangles, artifacts, program and report, in this order. A job that failed has no
+// paths and no program.
+bool SendResult(const PreparedJob& prepared, Made& made, const Outputs& outputs, const Sink<Response>& sink) {
   const JobResult& result = made.result;
   const bool verified = !result.program.empty();
   if (outputs.contains(v1::OUTPUT_REGIONS)) {
@@ -135,6 +181,12 @@ bool SendResult(const PreparedJob& prepared, const Made& made, const Outputs& ou
   if ((arcs || outputs.contains(v1::OUTPUT_PATHS)) && verified &&
       !SendPaths(arcs ? result.posted : result.motion.toolpath, result.program_zero, sink))
     return false;
+  if (outputs.contains(v1::OUTPUT_PATH_BLOCKS) && verified && !SendPathBlocks(result, sink)) return false;
+  for (v1::MeshBlock& block : made.mesh) {
+    Response response;
+    *response.mutable_mesh() = std::move(block);
+    if (!sink(response)) return false;
+  }
   if (!SendPicture(made.picture, sink)) return false;
   if (outputs.contains(v1::OUTPUT_PROGRAM) && !SendProgram(result.program, sink)) return false;
   Response response;
@@ -150,6 +202,12 @@ absl::Status HandleGenerateProgram(const Call& call, const v1::GenerateProgramRe
   PM_RETURN_IF_ERROR(CheckThreads(request.max_threads(), "max_threads"));
   PM_RETURN_IF_ERROR(CheckRequestId(request.request_id()));
   PM_ASSIGN_OR_RETURN(const Outputs outputs, ReadOutputs(request.outputs(), kPossible, kDefaults));
+  Wanted wanted{outputs.contains(v1::OUTPUT_PICTURE), outputs.contains(v1::OUTPUT_TESSELLATION), {}};
+  if (request.has_tessellation_chord_mm()) {
+    FieldErrors errors;
+    wanted.chord = ReadChord(request.tessellation_chord_mm(), errors);
+    PM_RETURN_IF_ERROR(errors.ToStatus());
+  }
   PreparedJob prepared;
   const auto prepare = [&](const RunContext& run) -> absl::Status {
     absl::StatusOr<PreparedJob> made = PrepareJob(request.job(), request.post(), run, call.env->in_flight);
@@ -170,12 +228,9 @@ absl::Status HandleGenerateProgram(const Call& call, const v1::GenerateProgramRe
     return sink(response);
   };
   Made made;
-  PM_RETURN_IF_ERROR(RunJobThread(call, request.max_threads(),
-                                  outputs.contains(v1::OUTPUT_PROGRESS) ? Beat(beat) : Beat(),
-                                  [&](const RunContext& run) {
-                                    const bool picture = outputs.contains(v1::OUTPUT_PICTURE);
-                                    return InJob(Make(prepared, picture, run, &made));
-                                  }));
+  PM_RETURN_IF_ERROR(
+      RunJobThread(call, request.max_threads(), outputs.contains(v1::OUTPUT_PROGRESS) ? Beat(beat) : Beat(),
+                   [&](const RunContext& run) { return InJob(Make(prepared, wanted, run, &made)); }));
   return SendResult(prepared, made, outputs, sink) ? absl::OkStatus() : gone();
 }
 

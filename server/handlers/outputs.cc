@@ -15,8 +15,6 @@ absl::StatusOr<Outputs> ReadOutputs(const google::protobuf::RepeatedField<int>& 
     const std::string field = fmt::format("outputs[{}]", i);
     if (possible.contains(asked[i])) {
       outputs.insert(asked[i]);
-    } else if (asked[i] == v1::OUTPUT_TESSELLATION) {
-      errors.NotYet(field, "OUTPUT_TESSELLATION");
     } else {
       errors.Add(field, fmt::format("= {}; this call does not have that output", asked[i]));
     }

@@ -13,7 +13,7 @@ namespace patchmill {
 using Outputs = std::set<int>;  // of v1::Output
 
 // The requested outputs, or `defaults` if none are requested. INVALID_ARGUMENT for an output that is not in
-// `possible`, UNIMPLEMENTED for one that is reserved for later.
+// `possible`.
 absl::StatusOr<Outputs> ReadOutputs(const google::protobuf::RepeatedField<int>& asked,
                                     const Outputs& possible, const Outputs& defaults);
 

@@ -1,12 +1,15 @@
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "cam/plan/drawing.h"
 #include "cam/plan/job_preview.h"
 #include "cam/plan/plan.h"
 #include "cam/plan/resolve.h"
 #include "cam/plan/unused_settings.h"
 #include "core/base/status.h"
+#include "server/convert/drawing.h"
 #include "server/convert/report.h"
 #include "server/handlers/handlers.h"
 #include "server/handlers/outputs.h"
@@ -20,7 +23,14 @@ absl::Status HandleSplitRegions(const Call& call, const v1::SplitRegionsRequest&
   PM_RETURN_IF_ERROR(CheckThreads(request.max_threads(), "max_threads"));
   PM_ASSIGN_OR_RETURN(
       const Outputs outputs,
-      ReadOutputs(request.outputs(), {v1::OUTPUT_REGIONS, v1::OUTPUT_PICTURE}, {v1::OUTPUT_REGIONS}));
+      ReadOutputs(request.outputs(), {v1::OUTPUT_REGIONS, v1::OUTPUT_PICTURE, v1::OUTPUT_TESSELLATION},
+                  {v1::OUTPUT_REGIONS}));
+  std::optional<double> chord;
+  if (request.has_tessellation_chord_mm()) {
+    FieldErrors errors;
+    chord = ReadChord(request.tessellation_chord_mm(), errors);
+    PM_RETURN_IF_ERROR(errors.ToStatus());
+  }
   const auto make = [&](const RunContext& run) -> absl::Status {
     PM_ASSIGN_OR_RETURN(PreparedJob prepared,
                         PrepareJob(request.job(), v1::Post(), run, call.env->in_flight));
@@ -43,6 +53,15 @@ absl::Status HandleSplitRegions(const Call& call, const v1::SplitRegionsRequest&
       picture.set_name("regions.svg");
       picture.set_media_type("image/svg+xml");
       picture.set_data(DrawRegions(surface, regions, resolved, job.operation.steep_angle, prepared.name));
+    }
+    if (outputs.contains(v1::OUTPUT_TESSELLATION)) {
+      PM_ASSIGN_OR_RETURN(
+          const SurfaceDrawing drawing,
+          DrawSurface(surface, chord.value_or(DefaultChord(surface)), &regions.map, std::nullopt, run));
+      EmitMesh(drawing, surface, resolved.program_zero, [&](v1::MeshBlock block) {
+        *response->add_mesh() = std::move(block);
+        return true;
+      });
     }
     return absl::OkStatus();
   };

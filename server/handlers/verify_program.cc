@@ -9,12 +9,14 @@
 #include <fmt/format.h>
 
 #include "cam/plan/beside_depth.h"
+#include "cam/plan/drawing.h"
 #include "cam/plan/plan.h"
 #include "cam/plan/resolve.h"
 #include "cam/post/program_reader.h"
 #include "cam/verify/join_reports.h"
 #include "cam/verify/tool_moves.h"
 #include "core/base/status.h"
+#include "server/convert/drawing.h"
 #include "server/convert/enums.h"
 #include "server/convert/fields.h"
 #include "server/convert/job.h"
@@ -24,6 +26,7 @@
 #include "server/convert/report.h"
 #include "server/convert/setup.h"
 #include "server/handlers/handlers.h"
+#include "server/handlers/outputs.h"
 #include "server/handlers/prepare.h"
 #include "server/limits.h"
 
@@ -127,11 +130,20 @@ Job ReadJob(const v1::VerifyProgramRequest& request, const std::vector<Tool>& to
 struct Answer {
   v1::Report report;
   std::string leftover_csv, leftover_png;
+  std::vector<v1::MeshBlock> mesh;
+  std::optional<ProgramMotion> motion;  // if its blocks are wanted
+};
+
+// What the answer has besides the report.
+struct Wanted {
+  bool mesh = false, path_blocks = false;
+  std::optional<double> chord;  // mm, of the mesh
 };
 
 struct VerifyJob {
   std::vector<Tool> tools;
   Job job;  // of the smallest tool
+  Wanted wanted;
 };
 
 // COMPLETE means that the finish was checked, too, and that there was something to finish.
@@ -310,12 +322,31 @@ absl::Status Make(const Call& call, const v1::VerifyProgramRequest& request, con
   AddDiagnostics(HeaderRemarks(upright.model.remarks), resolved.program_zero, report->mutable_diagnostics());
   AddDiagnostics(WallsWithoutSide(surface), resolved.program_zero, report->mutable_diagnostics());
   AddDiagnostics(verify.findings, resolved.program_zero, report->mutable_diagnostics());
+  if (what.wanted.mesh) {
+    const BallMotion ball{motion, resolved.program_zero, resolved.radius, job.operation.leave};
+    PM_ASSIGN_OR_RETURN(
+        const SurfaceDrawing drawing,
+        DrawSurface(surface, what.wanted.chord.value_or(DefaultChord(surface)), nullptr, ball, run));
+    EmitMesh(drawing, surface, resolved.program_zero, [&](v1::MeshBlock block) {
+      answer->mesh.push_back(std::move(block));
+      return true;
+    });
+  }
+  if (what.wanted.path_blocks) answer->motion = motion;
   if (!request.leftover_map()) return absl::OkStatus();
   constexpr double kLimit = 0.1;  // mm, of the colours where no scallop is given
   const double limit = request.has_scallop_mm() ? request.scallop_mm() + request.tolerance_mm() : kLimit;
   answer->leftover_csv = LeftoverCsv(verify.leftover_map, resolved.program_zero);
   answer->leftover_png = LeftoverPng(verify.leftover_map, limit);
   return absl::OkStatus();
+}
+
+bool SendPathBlocks(const ProgramMotion& motion, const Sink<Response>& sink) {
+  return EmitPathBlocks(motion, [&](v1::PathBlock block) {
+    Response response;
+    *response.mutable_path_block() = std::move(block);
+    return sink(response);
+  });
 }
 
 bool SendFile(const char* name, const char* media_type, std::string_view bytes, const Sink<Response>& sink) {
@@ -358,7 +389,13 @@ absl::Status HandleVerifyProgram(const Call& call, const v1::VerifyProgramReques
   what.tools = ReadTools(request, errors);
   what.job = ReadJob(request, what.tools, errors);
   CheckHolderClearance(request, what.job.setup.allowance, what.tools, errors);
+  if (request.has_tessellation_chord_mm())
+    what.wanted.chord = ReadChord(request.tessellation_chord_mm(), errors);
   PM_RETURN_IF_ERROR(errors.ToStatus());
+  PM_ASSIGN_OR_RETURN(const Outputs outputs,
+                      ReadOutputs(request.outputs(), {v1::OUTPUT_TESSELLATION, v1::OUTPUT_PATH_BLOCKS}, {}));
+  what.wanted.mesh = outputs.contains(v1::OUTPUT_TESSELLATION);
+  what.wanted.path_blocks = outputs.contains(v1::OUTPUT_PATH_BLOCKS);
   const auto beat = [&](std::string_view stage, double fraction) {
     Response response;
     response.mutable_progress()->set_stage(std::string(stage));
@@ -369,12 +406,19 @@ absl::Status HandleVerifyProgram(const Call& call, const v1::VerifyProgramReques
   PM_RETURN_IF_ERROR(RunJobThread(call, request.max_threads(), beat, [&](const RunContext& run) {
     return Make(call, request, what, run, &answer);
   }));
+  const auto gone = [] { return absl::CancelledError("the client has gone"); };
+  if (answer.motion && !SendPathBlocks(*answer.motion, sink)) return gone();
+  for (v1::MeshBlock& block : answer.mesh) {
+    Response response;
+    *response.mutable_mesh() = std::move(block);
+    if (!sink(response)) return gone();
+  }
   const bool sent = SendFile("leftover.csv", "text/csv", answer.leftover_csv, sink) &&
                     SendFile("leftover.png", "image/png", answer.leftover_png, sink);
-  if (!sent) return absl::CancelledError("the client has gone");
+  if (!sent) return gone();
   Response last;
   *last.mutable_report() = std::move(answer.report);
-  return sink(last) ? absl::OkStatus() : absl::CancelledError("the client has gone");
+  return sink(last) ? absl::OkStatus() : gone();
 }
 
 }  // namespace patchmill

@@ -50,6 +50,8 @@ int Rank(const Event& event) {
     case Event::kRegions:
     case Event::kPaths:
     case Event::kArc:
+    case Event::kPathBlock:
+    case Event::kMesh:
       return 1;
     case Event::kArtifact:
       return 2;
@@ -353,8 +355,8 @@ TEST_F(GenerateProgram, WrongRequestsEndBeforeAnythingIsSent) {
               RpcStatusIs(StatusCode::INVALID_ARGUMENT, StartsWith("max_threads = -1")));
   EXPECT_THAT(status([](auto& r) { r.add_outputs(v1::OUTPUT_UNSPECIFIED); }),
               RpcStatusIs(StatusCode::INVALID_ARGUMENT, StartsWith("outputs[0] = 0")));
-  EXPECT_THAT(status([](auto& r) { r.add_outputs(v1::OUTPUT_TESSELLATION); }),
-              RpcStatusIs(StatusCode::UNIMPLEMENTED, StartsWith("outputs[0] is not there yet")));
+  EXPECT_THAT(status([](auto& r) { r.set_tessellation_chord_mm(0.0); }),
+              RpcStatusIs(StatusCode::INVALID_ARGUMENT, StartsWith("tessellation_chord_mm = 0; must be in")));
   EXPECT_THAT(status([](auto& r) {
                 r.mutable_job()->mutable_source()->mutable_model()->mutable_patches(0)->clear_shape();
               }),
