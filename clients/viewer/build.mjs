@@ -1,0 +1,46 @@
+// Builds the page: node build.mjs OUT.html makes one file with script and style inside and the markers of the scene left.
+// The same sources and lock file give the same bytes.
+import { createHash } from "node:crypto";
+import { readFile, writeFile } from "node:fs/promises";
+import { fileURLToPath, pathToFileURL } from "node:url";
+import { build, transform } from "esbuild";
+
+const here = (name) => fileURLToPath(new URL(name, import.meta.url));
+const hash = (text) => `'sha256-${createHash("sha256").update(text, "utf8").digest("base64")}'`;
+
+export async function buildPage() {
+  const bundle = await build({
+    entryPoints: [here("src/main.ts")],
+    bundle: true,
+    write: false,
+    minify: true,
+    format: "iife",
+    target: ["es2022"],
+    charset: "ascii",
+    legalComments: "none",
+    absWorkingDir: here("."),
+    banner: { js: "/* Patchmill viewer, Apache-2.0. With three.js, MIT, (c) 2010-2025 three.js authors. */" },
+  });
+  // A script element ends at its end tag, wherever that stands.
+  const script = bundle.outputFiles[0].text.replace(/<\/(script)/gi, "<\\/$1").replace(/<!--/g, "<\\!--");
+  const style = (await transform(await readFile(here("page.css"), "utf8"), { loader: "css", minify: true })).code;
+  const policy = [
+    "default-src 'none'",
+    `script-src ${hash(script)}`,
+    `style-src ${hash(style)}`,
+    "img-src data:",
+    "base-uri 'none'",
+    "form-action 'none'",
+  ].join("; ");
+  const parts = { "@CSP@": policy, "@STYLE@": style, "@SCRIPT@": script };
+  return (await readFile(here("page.html"), "utf8")).replace(/@CSP@|@STYLE@|@SCRIPT@/g, (marker) => parts[marker]);
+}
+
+if (process.argv[1] !== undefined && import.meta.url === pathToFileURL(process.argv[1]).href) {
+  const [out] = process.argv.slice(2);
+  if (out === undefined) {
+    console.error("usage: node build.mjs OUT.html");
+    process.exit(2);
+  }
+  await writeFile(out, await buildPage());
+}
