@@ -33,9 +33,9 @@ endfunction()
 # several at a time.
 # What a source keeps to itself, in an anonymous namespace, must mean nothing to the others of its batch: a source goes
 # into the first batch that mentions none of its private names, and whose private names it does not mention. Sources with
-# macros, pragmas or compile options of their own stay alone. OVERLOADS are private functions of several sources that take
-# private types. All this is decided when CMake runs: should an edit bring the same name into a batch twice, run CMake
-# again.
+# macros, pragmas, compile options or definitions of their own stay alone. OVERLOADS are private functions of several
+# sources that take private types. All this is decided when CMake runs: should an edit bring the same name into a batch
+# twice, run CMake again.
 function(patchmill_unity result name)
   cmake_parse_arguments(ARG "" "" "OVERLOADS;SOURCES" ${ARGN})
   if(NOT PATCHMILL_UNITY)
@@ -47,7 +47,8 @@ function(patchmill_unity result name)
   foreach(source ${ARG_SOURCES})
     file(READ ${source} text)
     get_source_file_property(options ${source} COMPILE_OPTIONS)
-    if(options OR text MATCHES "\n#(define|undef|pragma)")
+    get_source_file_property(definitions ${source} COMPILE_DEFINITIONS)
+    if(options OR definitions OR text MATCHES "\n#(define|undef|pragma)")
       list(APPEND alone ${source})
       continue()
     endif()

@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
-# Sets up, builds, and mills the Newell teapot: leaves a program, a report and a picture in out/demo/.
+# Sets up, builds, and mills the Newell teapot: leaves a program, a report, a picture and a 3-D page in out/demo/.
 #   scripts/demo.sh [MODEL [patchmill mill options]]     mill a model of your own instead
 set -euo pipefail
 cd "$(dirname "$0")/.."
 scripts/setup.sh build
+scripts/setup.sh page
 cmake --preset release -DPATCHMILL_TESTS=OFF -DPATCHMILL_BENCH=OFF  # scripts/test.sh switches them on again
 cmake --build --preset release --target patchmill patchmilld
 out=out/demo
@@ -14,8 +15,10 @@ fi
 model="$1"
 shift
 name="$(basename "${model%.*}")"
-build/release/bin/patchmill mill "$model" -o "$out/$name.ngc" --report "$out/$name.json" --preview "$out/$name.svg" "$@"
+build/release/bin/patchmill mill "$model" -o "$out/$name.ngc" --report "$out/$name.json" --preview "$out/$name.svg" \
+  --preview "$out/$name.html" "$@"
 echo
 echo "program: $out/$name.ngc"
 echo "report:  $out/$name.json"
 echo "picture: $out/$name.svg"
+echo "3-D:     $out/$name.html (open it in a browser)"

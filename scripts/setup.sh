@@ -5,6 +5,7 @@
 #   scripts/setup.sh            all that building and testing needs
 #   scripts/setup.sh build      compiler and libraries only (what scripts/demo.sh and the container's build stage use)
 #   scripts/setup.sh cad        the same with Open CASCADE, for STEP and IGES
+#   scripts/setup.sh page       Node.js with what makes the 3-D page; without it `--preview FILE.html` is not built in
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -16,17 +17,19 @@ build_packages=(
 )
 test_packages=(
   libgtest-dev libgmock-dev libbenchmark-dev librapidcheck-dev libcgal-dev
-  python3 clang-format-14 linuxcnc-uspace librsvg2-bin python3-grpcio python3-protobuf
+  python3 clang-format-14 linuxcnc-uspace librsvg2-bin python3-grpcio python3-protobuf chromium
 )
 cad_packages=(libocct-data-exchange-dev)  # Open CASCADE reads STEP and IGES; without it patchmill-import is not built
 case "$what" in
   all) packages=("${build_packages[@]}" "${cad_packages[@]}" "${test_packages[@]}") ;;
   build) packages=("${build_packages[@]}") ;;
   cad) packages=("${build_packages[@]}" "${cad_packages[@]}") ;;
-  *) echo "setup.sh: unknown argument '$what' (all, build, cad)" >&2; exit 2 ;;
+  page) packages=(ca-certificates) ;;
+  *) echo "setup.sh: unknown argument '$what' (all, build, cad, page)" >&2; exit 2 ;;
 esac
-# Node.js and npm carry buf, the linter of the contract; a newer Node.js than Debian's brings its own npm.
-if [ "$what" = all ]; then
+# Node.js and npm carry buf, the linter of the contract, and the tools of the 3-D page; a newer Node.js than Debian's
+# brings its own npm.
+if [ "$what" = all ] || [ "$what" = page ]; then
   command -v node >/dev/null || packages+=(nodejs)
   command -v npm >/dev/null || packages+=(npm)
 fi
@@ -50,5 +53,13 @@ fi
 if [ "$what" = all ] && [ ! -x node_modules/.bin/buf ]; then
   echo "setup: installing buf (version pinned in package.json)"
   npm install --no-save --no-package-lock --no-audit --no-fund --loglevel=error
+fi
+# What is installed is what package-lock.json says, by its hashes.
+viewer=clients/viewer
+if { [ "$what" = all ] || [ "$what" = page ]; } &&
+   ! cmp -s "$viewer/package-lock.json" "$viewer/node_modules/.installed-lock"; then
+  echo "setup: installing the tools of the 3-D page (versions pinned in $viewer/package-lock.json)"
+  npm ci --prefix "$viewer" --no-audit --no-fund --loglevel=error
+  cp "$viewer/package-lock.json" "$viewer/node_modules/.installed-lock"
 fi
 echo "setup: done"

@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include <absl/strings/match.h>
 #include <fmt/format.h>
 
 #include "clients/cli/commands.h"
@@ -14,6 +15,7 @@
 #include "clients/cli/post_options.h"
 #include "clients/cli/progress_bar.h"
 #include "clients/cli/region_options.h"
+#include "clients/cli/scene.h"
 #include "clients/cli/text.h"
 #include "patchmill/v1/toolpath_service.grpc.pb.h"
 
@@ -29,7 +31,8 @@ struct MillOptions {
   OperationOptions operation;
   LimitOptions limits;
   RegionChangeOptions regions;
-  std::string model, program, report, preview, work_offset = "G54";
+  std::string model, program, report, work_offset = "G54";
+  std::vector<std::string> previews;
   PostOptions post;
   bool no_arcs = false, restart_points = false;
   std::optional<int> line_numbers;
@@ -38,10 +41,13 @@ struct MillOptions {
 
 // The part of the stream received so far. It goes to disk only after the report.
 struct Received {
-  OutputFile program, report_file, preview;
+  OutputFile program, report_file, picture, page;
+  Scene scene;
   v1::Report report;
   bool complete = false;  // the report has come; a stream without it is void
 };
+
+bool IsPage(const std::string& path) { return absl::EndsWithIgnoreCase(path, ".html"); }
 
 absl::StatusOr<v1::GenerateProgramRequest> MakeRequest(const MillOptions& options) {
   v1::GenerateProgramRequest request;
@@ -79,22 +85,42 @@ absl::StatusOr<v1::GenerateProgramRequest> MakeRequest(const MillOptions& option
   for (const v1::Output output : {v1::OUTPUT_PROGRESS, v1::OUTPUT_PROGRAM, v1::OUTPUT_REPORT}) {
     request.add_outputs(output);
   }
-  if (!options.preview.empty()) request.add_outputs(v1::OUTPUT_PICTURE);
+  for (const std::string& path : options.previews) {
+    if (!IsPage(path)) {
+      request.add_outputs(v1::OUTPUT_PICTURE);
+      continue;
+    }
+    for (const v1::Output output : {v1::OUTPUT_REGIONS, v1::OUTPUT_PATH_BLOCKS, v1::OUTPUT_TESSELLATION})
+      request.add_outputs(output);
+  }
   request.set_max_threads(options.common.threads);
   if (const absl::Status fits = CheckRequestSize(request.ByteSizeLong()); !fits.ok()) return fits;
   return request;
 }
 
-void Take(const v1::GenerateProgramResponse& response, ProgressBar& bar, Received& received) {
+void Take(v1::GenerateProgramResponse& response, ProgressBar& bar, Received& received) {
   switch (response.event_case()) {
     case v1::GenerateProgramResponse::kProgress:
       bar.Show(response.progress());
       break;
     case v1::GenerateProgramResponse::kProgram:
       received.program.Append(response.program().data());
+      if (received.page.wanted()) received.scene.program += response.program().data();
       break;
     case v1::GenerateProgramResponse::kArtifact:
-      received.preview.Append(response.artifact().data());
+      received.picture.Append(response.artifact().data());
+      break;
+    case v1::GenerateProgramResponse::kAccepted:
+      received.scene.setup = response.accepted().resolved_job().setup();
+      break;
+    case v1::GenerateProgramResponse::kRegions:
+      received.scene.regions = std::move(*response.mutable_regions());
+      break;
+    case v1::GenerateProgramResponse::kMesh:
+      received.scene.mesh.push_back(std::move(*response.mutable_mesh()));
+      break;
+    case v1::GenerateProgramResponse::kPathBlock:
+      received.scene.paths.push_back(std::move(*response.mutable_path_block()));
       break;
     case v1::GenerateProgramResponse::kReport:
       received.report = response.report();
@@ -105,6 +131,19 @@ void Take(const v1::GenerateProgramResponse& response, ProgressBar& bar, Receive
   }
 }
 
+// One picture and one page at most.
+absl::Status SetPreviews(const std::vector<std::string>& paths, Received& received) {
+  for (const std::string& path : paths) {
+    OutputFile& file = IsPage(path) ? received.page : received.picture;
+    if (file.wanted()) {
+      return absl::InvalidArgumentError(
+          fmt::format("--preview {} and {}; one picture (.svg) and one page (.html)", file.path(), path));
+    }
+    file = OutputFile(path, {".svg", ".html"});
+  }
+  return received.page.wanted() ? CheckPage() : absl::OkStatus();
+}
+
 bool CarriesProgram(const v1::Report& report) {
   return report.outcome() == v1::OUTCOME_COMPLETE || report.outcome() == v1::OUTCOME_COMPLETE_WHERE_REACHABLE;
 }
@@ -112,7 +151,14 @@ bool CarriesProgram(const v1::Report& report) {
 // Report and picture of a failed job are written, its program is not.
 absl::Status WriteFiles(const MillOptions& options, Received& received) {
   received.report_file.Set(Json(received.report));
-  if (const absl::Status written = Commit({&received.report_file, &received.preview}); !written.ok())
+  if (received.page.wanted()) {
+    received.scene.report = received.report;
+    absl::StatusOr<std::string> page = MakePage(received.scene);
+    if (!page.ok()) return page.status();
+    received.page.Set(*std::move(page));
+  }
+  if (const absl::Status written = Commit({&received.report_file, &received.picture, &received.page});
+      !written.ok())
     return written;
   if (!CarriesProgram(received.report)) {
     std::string message = fmt::format("{}: {}", options.model, Short(received.report.outcome()));
@@ -244,13 +290,19 @@ absl::Status Run(const MillOptions& options, InterruptWatch& watch) {
   Received received;
   received.program = OutputFile(options.program);
   received.report_file = OutputFile(options.report);
-  received.preview = OutputFile(options.preview, {".svg"});
+  if (const absl::Status set = SetPreviews(options.previews, received); !set.ok()) return set;
   absl::StatusOr<v1::GenerateProgramRequest> request = MakeRequest(options);
   if (!request.ok()) return request.status();
   if (const absl::Status writable =
-          CheckWritable({&received.program, &received.report_file, &received.preview});
+          CheckWritable({&received.program, &received.report_file, &received.picture, &received.page});
       !writable.ok())
     return writable;
+  const v1::Operation& operation = request->job().operations(0);
+  received.scene.title = request->job().name();
+  received.scene.tool = operation.tool();
+  received.scene.tolerance = options.operation.tolerance;
+  received.scene.scallop = operation.scallop_mm();
+  received.scene.steep_angle = options.operation.steep_angle;
   absl::StatusOr<Connection> connection = Connect(options.common);
   if (!connection.ok()) return connection.status();
 
@@ -368,7 +420,9 @@ Command AddMill(CLI::App& app) {
       ->check(CLI::Range(1, 9999))
       ->capture_default_str();
   app.add_option("--report", options->report, "write the report here (.json)");
-  app.add_option("--preview", options->preview, "write a picture here (.svg)");
+  app.add_option("--preview", options->previews,
+                 "write a picture here (.svg), or a page that shows part and program in 3-D (.html)")
+      ->allow_extra_args(false);
   AddCommonOptions(app, options->common);
   return [options](InterruptWatch& watch) { return Run(*options, watch); };
 }

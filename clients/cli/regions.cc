@@ -11,6 +11,7 @@
 #include "clients/cli/limit_options.h"
 #include "clients/cli/output_file.h"
 #include "clients/cli/region_options.h"
+#include "clients/cli/scene.h"
 #include "clients/cli/text.h"
 #include "patchmill/v1/analysis_service.grpc.pb.h"
 
@@ -30,7 +31,7 @@ struct RegionsOptions {
   std::string model, output;
 };
 
-absl::StatusOr<v1::SplitRegionsRequest> MakeRequest(const RegionsOptions& options, bool picture) {
+absl::StatusOr<v1::SplitRegionsRequest> MakeRequest(const RegionsOptions& options, const OutputFile& output) {
   v1::SplitRegionsRequest request;
   absl::StatusOr<v1::ModelSource> source = ReadModel(options.model, options.reading);
   if (!source.ok()) return source.status();
@@ -53,7 +54,8 @@ absl::StatusOr<v1::SplitRegionsRequest> MakeRequest(const RegionsOptions& option
   if (!regions.ok()) return regions;
   job.set_name(WireText(std::filesystem::path(options.model).filename().string(), 100));
   request.add_outputs(v1::OUTPUT_REGIONS);
-  if (picture) request.add_outputs(v1::OUTPUT_PICTURE);
+  if (output.EndsIn(".svg")) request.add_outputs(v1::OUTPUT_PICTURE);
+  if (output.EndsIn(".html")) request.add_outputs(v1::OUTPUT_TESSELLATION);
   request.set_max_threads(options.common.threads);
   return request;
 }
@@ -141,15 +143,40 @@ void Print(const v1::RegionMap& map) {
   PrintBorders(map);
 }
 
+// The part and its regions in 3-D.
+absl::StatusOr<std::string> Page(const RegionsOptions& options, const v1::SplitRegionsRequest& request,
+                                 const v1::SplitRegionsResponse& response) {
+  Scene scene;
+  scene.title = request.job().name();
+  scene.setup = request.job().setup();
+  scene.tool = request.job().operations(0).tool();
+  scene.tolerance = options.operation.tolerance;
+  scene.scallop = options.operation.scallop;
+  scene.steep_angle = options.operation.steep_angle;
+  scene.regions = response.regions();
+  scene.mesh = {response.mesh().begin(), response.mesh().end()};
+  *scene.report.mutable_diagnostics() = response.diagnostics();
+  return MakePage(scene);
+}
+
 absl::Status Run(const RegionsOptions& options, InterruptWatch& watch) {
-  OutputFile output(options.output, {".json", ".svg"});
-  absl::StatusOr<v1::SplitRegionsRequest> request = MakeRequest(options, output.EndsIn(".svg"));
+  OutputFile output(options.output, {".json", ".svg", ".html"});
+  if (output.EndsIn(".html")) {
+    if (const absl::Status can = CheckPage(); !can.ok()) return can;
+  }
+  absl::StatusOr<v1::SplitRegionsRequest> request = MakeRequest(options, output);
   if (!request.ok()) return request.status();
   if (const absl::Status writable = CheckWritable({&output}); !writable.ok()) return writable;
   absl::StatusOr<v1::SplitRegionsResponse> response =
       Call(options.common, watch, &v1::AnalysisService::Stub::SplitRegions, *request);
   if (!response.ok()) return response.status();
-  if (output.wanted()) output.Set(response->has_picture() ? response->picture().data() : Json(*response));
+  if (output.EndsIn(".html")) {
+    absl::StatusOr<std::string> page = Page(options, *request, *response);
+    if (!page.ok()) return page.status();
+    output.Set(*std::move(page));
+  } else if (output.wanted()) {
+    output.Set(response->has_picture() ? response->picture().data() : Json(*response));
+  }
   if (const absl::Status written = Commit({&output}); !written.ok()) return written;
   // Findings about the model are the business of `patchmill check`.
   for (const v1::Diagnostic& finding : response->diagnostics()) {
@@ -165,7 +192,7 @@ absl::Status Run(const RegionsOptions& options, InterruptWatch& watch) {
 Command AddRegions(CLI::App& app) {
   auto options = std::make_shared<RegionsOptions>();
   app.add_option("MODEL", options->model, kModelHelp)->required();
-  app.add_option("-o,--output", options->output, "the region map: .json or .svg");
+  app.add_option("-o,--output", options->output, "the region map: .json, .svg, or .html in 3-D");
   AddSplitOptions(app, options->operation);
   AddShankOptions(app, options->operation.shank);
   app.add_option("--strategy", options->operation.strategy,

@@ -1,10 +1,14 @@
 #include "clients/cli/text.h"
 
 #include <algorithm>
+#include <memory>
 
 #include <absl/strings/ascii.h>
 #include <fmt/format.h>
+#include <google/protobuf/io/coded_stream.h>
+#include <google/protobuf/io/zero_copy_stream_impl_lite.h>
 #include <google/protobuf/util/json_util.h>
+#include <google/protobuf/util/type_resolver_util.h>
 
 #include "clients/cli/option_names.h"
 
@@ -189,5 +193,22 @@ std::string Print(const google::protobuf::Message& message, bool whole) {
 
 std::string Json(const google::protobuf::Message& message) { return Print(message, true); }
 std::string ShortJson(const google::protobuf::Message& message) { return Print(message, false); }
+
+std::string SortedJson(const google::protobuf::Struct& object) {
+  // Members of a Struct have no order of their own, but in deterministic bytes they are sorted.
+  std::string bytes, text;
+  {
+    google::protobuf::io::StringOutputStream stream(&bytes);
+    google::protobuf::io::CodedOutputStream coded(&stream);
+    coded.SetSerializationDeterministic(true);
+    object.SerializeToCodedStream(&coded);
+  }
+  const std::unique_ptr<google::protobuf::util::TypeResolver> types(
+      google::protobuf::util::NewTypeResolverForDescriptorPool(
+          "type.googleapis.com", google::protobuf::DescriptorPool::generated_pool()));
+  const auto status = google::protobuf::util::BinaryToJsonString(
+      types.get(), "type.googleapis.com/google.protobuf.Struct", bytes, &text);
+  return status.ok() ? text : std::string("{}");
+}
 
 }  // namespace patchmill::cli

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include <google/protobuf/message.h>
+#include <google/protobuf/struct.pb.h>
 
 #include "patchmill/v1/diagnostic.pb.h"
 #include "patchmill/v1/lines.pb.h"
@@ -55,5 +56,7 @@ std::string WireText(std::string_view text, std::size_t most);
 std::string Json(const google::protobuf::Message& message);
 // JSON on one line with only the fields that are set. For models.
 std::string ShortJson(const google::protobuf::Message& message);
+// JSON on one line, members sorted by name.
+std::string SortedJson(const google::protobuf::Struct& object);
 
 }  // namespace patchmill::cli

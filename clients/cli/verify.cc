@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <memory>
 
 #include <absl/strings/match.h>
@@ -14,6 +15,7 @@
 #include "clients/cli/post_options.h"
 #include "clients/cli/progress_bar.h"
 #include "clients/cli/region_options.h"
+#include "clients/cli/scene.h"
 #include "clients/cli/text.h"
 #include "clients/cli/tool_file.h"
 #include "patchmill/v1/toolpath_service.grpc.pb.h"
@@ -27,7 +29,7 @@ struct VerifyOptions {
   ReadingOptions reading;
   LimitOptions limits;
   RegionChangeOptions regions;
-  std::string model, program, report, tolerance_map, strategy = "auto";
+  std::string model, program, report, preview, tolerance_map, strategy = "auto";
   std::optional<double> tool_diameter;
   std::vector<std::string> tools;
   double tolerance = 0.01, leave = 0.0, zigzag_angle = 0.0, steep_angle = 45.0;
@@ -113,6 +115,10 @@ absl::StatusOr<v1::VerifyProgramRequest> MakeRequest(const VerifyOptions& option
       SetRegions(options.regions, request.mutable_regions_sha256(), request.mutable_region_overrides());
   if (!regions.ok()) return regions;
   request.set_leftover_map(!options.tolerance_map.empty());
+  if (!options.preview.empty()) {
+    request.add_outputs(v1::OUTPUT_TESSELLATION);
+    request.add_outputs(v1::OUTPUT_PATH_BLOCKS);
+  }
   request.set_max_threads(options.common.threads);
   if (const absl::Status fits = CheckRequestSize(request.ByteSizeLong()); !fits.ok()) return fits;
   return request;
@@ -175,13 +181,32 @@ std::string MapPath(const std::string& path, const char* ending) {
   return (ends ? path.substr(0, path.size() - 4) : path) + ending;
 }
 
+// What the page shows before the answer comes.
+Scene BareScene(const VerifyOptions& options, const v1::VerifyProgramRequest& request) {
+  Scene scene;
+  scene.title = fmt::format("{} on {}", std::filesystem::path(options.program).filename().string(),
+                            std::filesystem::path(options.model).filename().string());
+  scene.setup = request.setup();
+  scene.tool = request.tools(0);
+  scene.tolerance = options.tolerance;
+  scene.scallop = options.scallop;
+  scene.steep_angle = options.steep_angle;
+  scene.program = request.program();
+  return scene;
+}
+
 absl::Status Run(const VerifyOptions& options, InterruptWatch& watch) {
   OutputFile report_file(options.report);
+  OutputFile page_file(options.preview, {".html"});
+  if (page_file.wanted()) {
+    if (const absl::Status can = CheckPage(); !can.ok()) return can;
+  }
   OutputFile map_csv(MapPath(options.tolerance_map, ".csv"));
   OutputFile map_png(MapPath(options.tolerance_map, ".png"));
   absl::StatusOr<v1::VerifyProgramRequest> request = MakeRequest(options);
   if (!request.ok()) return request.status();
-  if (const absl::Status writable = CheckWritable({&report_file, &map_csv, &map_png}); !writable.ok()) {
+  if (const absl::Status writable = CheckWritable({&report_file, &page_file, &map_csv, &map_png});
+      !writable.ok()) {
     return writable;
   }
   absl::StatusOr<Connection> connection = Connect(options.common);
@@ -193,6 +218,7 @@ absl::Status Run(const VerifyOptions& options, InterruptWatch& watch) {
   ProgressBar bar(options.common.quiet);
   v1::VerifyProgramResponse response;
   v1::Report report;
+  Scene scene = BareScene(options, *request);
   bool complete = false;
   while (reader->Read(&response)) {
     if (response.has_progress()) bar.Show(response.progress());
@@ -200,6 +226,8 @@ absl::Status Run(const VerifyOptions& options, InterruptWatch& watch) {
       const v1::ArtifactChunk& chunk = response.artifact();
       (chunk.name() == "leftover.csv" ? map_csv : map_png).Append(chunk.data());
     }
+    if (response.has_mesh()) scene.mesh.push_back(std::move(*response.mutable_mesh()));
+    if (response.has_path_block()) scene.paths.push_back(std::move(*response.mutable_path_block()));
     if (!response.has_report()) continue;
     report = response.report();
     complete = true;
@@ -209,7 +237,14 @@ absl::Status Run(const VerifyOptions& options, InterruptWatch& watch) {
   if (!status.ok()) return FromGrpc(status, options.common, watch);
   if (!complete) return absl::DataLossError("the answer ended without a report");
   if (report_file.wanted()) report_file.Set(Json(report));
-  if (const absl::Status written = Commit({&report_file, &map_csv, &map_png}); !written.ok()) return written;
+  if (page_file.wanted()) {
+    scene.report = report;
+    absl::StatusOr<std::string> page = MakePage(scene);
+    if (!page.ok()) return page.status();
+    page_file.Set(*std::move(page));
+  }
+  if (const absl::Status written = Commit({&report_file, &page_file, &map_csv, &map_png}); !written.ok())
+    return written;
   Print(options, report);
   return Verdict(options, report.outcome());
 }
@@ -269,6 +304,7 @@ Command AddVerify(CLI::App& app) {
             "machine Z from which up a place of G53 is above everything, mm; default: -10, or machine_top of "
             "the dialect if that is lower");
   app.add_option("--report", options->report, "write the report here (.json)");
+  app.add_option("--preview", options->preview, "write a page that shows part and program in 3-D (.html)");
   app.add_option("--tolerance-map", options->tolerance_map,
                  "write what is left over the part: FILE.csv with places and FILE.png from above");
   AddCommonOptions(app, options->common);

@@ -1,0 +1,462 @@
+#include "clients/cli/scene.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <string_view>
+#include <utility>
+
+#include <absl/strings/ascii.h>
+#include <absl/strings/escaping.h>
+#include <absl/strings/str_replace.h>
+#include <fmt/format.h>
+#include <google/protobuf/struct.pb.h>
+
+#include "clients/cli/scene_buffers.h"
+#include "clients/cli/text.h"
+#include "clients/cli/viewer_page.h"
+
+namespace patchmill::cli {
+namespace {
+
+using google::protobuf::ListValue;
+using google::protobuf::Struct;
+using google::protobuf::Value;
+
+Value& In(Struct& object, const std::string& name) { return (*object.mutable_fields())[name]; }
+void Set(Struct& object, const std::string& name, const std::string& text) {
+  In(object, name).set_string_value(text);
+}
+void Set(Struct& object, const std::string& name, double number) {
+  In(object, name).set_number_value(number);
+}
+void SetNull(Struct& object, const std::string& name) {
+  In(object, name).set_null_value(google::protobuf::NULL_VALUE);
+}
+void Add(ListValue& list, std::initializer_list<double> numbers) {
+  ListValue& item = *list.add_values()->mutable_list_value();
+  for (const double number : numbers) item.add_values()->set_number_value(number);
+}
+ListValue& NewList(Struct& object, const std::string& name) {
+  ListValue& list = *In(object, name).mutable_list_value();
+  list.Clear();
+  return list;
+}
+void SetPoint(Struct& object, const std::string& name, const v1::Point3& p) {
+  ListValue& list = NewList(object, name);
+  for (const double x : {p.x_mm(), p.y_mm(), p.z_mm()}) list.add_values()->set_number_value(x);
+}
+
+// The colours of the SVG pictures (cam/plan/job_preview.cc): mountain red, basin blue, neutral green, steep
+// stronger than gentle; out of reach by reason.
+std::string ColorOf(const v1::Region& region) {
+  using Rgb = std::array<int, 3>;
+  const bool steep = region.slope() == v1::SLOPE_STEEP;
+  Rgb rgb{120, 120, 120};
+  switch (region.kind()) {
+    case v1::REGION_KIND_MOUNTAIN:
+      rgb = steep ? Rgb{230, 120, 95} : Rgb{250, 205, 175};
+      break;
+    case v1::REGION_KIND_BASIN:
+      rgb = steep ? Rgb{95, 145, 225} : Rgb{180, 212, 250};
+      break;
+    case v1::REGION_KIND_NEUTRAL:
+      rgb = steep ? Rgb{120, 185, 110} : Rgb{205, 232, 195};
+      break;
+    default: {
+      static const std::map<v1::UnreachableReason, Rgb> kOfReason = {
+          {v1::UNREACHABLE_REASON_CONCAVE, {150, 120, 165}},
+          {v1::UNREACHABLE_REASON_FLOOR, {165, 150, 105}},
+          {v1::UNREACHABLE_REASON_SHANK, {95, 145, 140}},
+          {v1::UNREACHABLE_REASON_HOLDER, {70, 110, 150}},
+          {v1::UNREACHABLE_REASON_OUTSIDE, {175, 175, 180}}};
+      if (const auto found = kOfReason.find(region.unreachable_reason()); found != kOfReason.end())
+        rgb = found->second;
+    }
+  }
+  if (region.unreachable_reason() == v1::UNREACHABLE_REASON_STRATEGY) rgb = {245, 220, 90};
+  const int shift = (region.id() % 3 - 1) * 9;
+  for (int& c : rgb) c = std::clamp(c + shift, 0, 255);
+  return fmt::format("#{:02x}{:02x}{:02x}", rgb[0], rgb[1], rgb[2]);
+}
+
+void AddRegions(const v1::RegionMap& map, Struct& header) {
+  ListValue& list = NewList(header, "regions");
+  for (const v1::Region& region : map.regions()) {
+    const bool unreached = region.unreachable_reason() != v1::UNREACHABLE_REASON_UNSPECIFIED;
+    Struct& item = *list.add_values()->mutable_struct_value();
+    Set(item, "id", region.id());
+    std::string name = fmt::format("{} ", region.id());
+    if (unreached) {
+      name += fmt::format("{}: {:.1f} mm2, {:.2f} mm stays", Short(region.unreachable_reason()),
+                          region.area_mm2(), region.deepest_leftover_mm());
+    } else {
+      name +=
+          fmt::format("{}, {}: {:.1f} mm2", Short(region.kind()), Short(region.slope()), region.area_mm2());
+    }
+    Set(item, "name", name);
+    Set(item, "color", ColorOf(region));
+    Set(item, "unreachable", unreached ? Short(region.unreachable_reason()) : "");
+  }
+}
+
+double LengthOf(const v1::BorderLine& line) {
+  const auto& p = line.points_mm();
+  double sum = 0.0;
+  const int count = p.size() / 3;
+  for (int i = line.closed() ? 0 : 1; i < count; ++i) {
+    const int a = 3 * ((i + count - 1) % count), b = 3 * i;
+    sum += std::hypot(p[b] - p[a], p[b + 1] - p[a + 1], p[b + 2] - p[a + 2]);
+  }
+  return sum;
+}
+
+// "open edge".
+std::string BorderName(v1::BorderKind kind) {
+  return absl::StrReplaceAll(absl::AsciiStrToLower(Short(kind)), {{"_", " "}});
+}
+
+const char* BorderColor(v1::BorderKind kind) {
+  switch (kind) {
+    case v1::BORDER_KIND_SLOPE:
+      return "#c2410c";
+    case v1::BORDER_KIND_CURVATURE:
+      return "#0f766e";
+    case v1::BORDER_KIND_SILHOUETTE:
+      return "#7c3aed";
+    case v1::BORDER_KIND_WATERSHED:
+      return "#1d4ed8";
+    case v1::BORDER_KIND_SEAM:
+      return "#be185d";
+    case v1::BORDER_KIND_STRATEGY:
+      return "#854d0e";
+    case v1::BORDER_KIND_OPEN_EDGE:
+      return "#808080";
+    default:
+      return "#303030";
+  }
+}
+
+void AddBorders(const v1::RegionMap& map, Struct& header, SceneBuffers& buffers) {
+  std::map<v1::BorderKind, double> lengths;
+  for (const v1::BorderLine& line : map.border_lines()) lengths[line.kind()] += LengthOf(line);
+  ListValue& list = NewList(header, "borders");
+  std::vector<float> positions;
+  for (const v1::BorderLine& line : map.border_lines()) {
+    const auto& points = line.points_mm();
+    if (points.size() < 6) continue;
+    Struct& item = *list.add_values()->mutable_struct_value();
+    Set(item, "name", fmt::format("{}: {:.1f} mm", BorderName(line.kind()), lengths[line.kind()]));
+    Set(item, "color", BorderColor(line.kind()));
+    Set(item, "first", static_cast<double>(positions.size() / 3));
+    positions.insert(positions.end(), points.begin(), points.end());
+    if (line.closed()) positions.insert(positions.end(), points.begin(), points.begin() + 3);
+    Set(item, "count", static_cast<double>(points.size() / 3 + (line.closed() ? 1 : 0)));
+  }
+  buffers.Add("border.position", positions);
+}
+
+struct BoxOf {
+  std::array<double, 3> min, max;
+};
+
+BoxOf MeshBox(const std::vector<v1::MeshBlock>& mesh) {
+  BoxOf box;
+  box.min.fill(std::numeric_limits<double>::infinity());
+  box.max.fill(-std::numeric_limits<double>::infinity());
+  for (const v1::MeshBlock& block : mesh) {
+    for (int i = 0; i < block.position_mm_size(); ++i) {
+      const auto k = static_cast<std::size_t>(i % 3);
+      box.min[k] = std::min(box.min[k], static_cast<double>(block.position_mm(i)));
+      box.max[k] = std::max(box.max[k], static_cast<double>(block.position_mm(i)));
+    }
+  }
+  return box;
+}
+
+void AddMesh(const std::vector<v1::MeshBlock>& mesh, Struct& header, SceneBuffers& buffers) {
+  std::vector<float> position, normal, slope, curvature, leftover, gouge;
+  std::vector<std::uint32_t> index, surface;
+  std::vector<std::int32_t> region;
+  ListValue& names = NewList(header, "surfaces");
+  const auto append = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
+  std::uint32_t patches = 0;
+  for (const v1::MeshBlock& block : mesh) {
+    const auto first = static_cast<std::uint32_t>(slope.size());
+    append(position, block.position_mm());
+    append(normal, block.normal());
+    append(slope, block.slope_deg());
+    // The page counts outward bends as positive.
+    for (const float c : block.contour_curvature_per_mm()) curvature.push_back(-c);
+    append(leftover, block.leftover_mm());
+    append(gouge, block.gouge_mm());
+    for (const std::int32_t corner : block.corners())
+      index.push_back(first + static_cast<std::uint32_t>(corner));
+    append(region, block.region_id());
+    for (const std::int32_t patch : block.patch_index()) {
+      surface.push_back(static_cast<std::uint32_t>(patch));
+      patches = std::max(patches, surface.back() + 1);
+    }
+    for (const std::string& name : block.patch_names()) {
+      names.add_values()->set_string_value(name.empty() ? fmt::format("patch {}", names.values_size() - 1)
+                                                        : name);
+    }
+  }
+  while (names.values_size() < static_cast<int>(patches))
+    names.add_values()->set_string_value(fmt::format("patch {}", names.values_size() - 1));
+  buffers.Add("mesh.position", position);
+  buffers.Add("mesh.normal", normal);
+  buffers.Add("mesh.slope", slope);
+  buffers.Add("mesh.curvature", curvature);
+  if (!leftover.empty()) buffers.Add("mesh.leftover", leftover);
+  if (!gouge.empty()) buffers.Add("mesh.gouge", gouge);
+  buffers.Add("mesh.index", index);
+  buffers.Add("mesh.region", region);
+  buffers.Add("mesh.surface", surface);
+}
+
+constexpr std::array<const char*, 5> kPassNames = {"zig-zag", "contour", "border", "pencil", "rest"};
+constexpr std::uint8_t kBetweenPasses = 255;
+
+// A section begins where the region or the kind of the passes changes.
+class Sections {
+ public:
+  explicit Sections(ListValue& list) : list_(list) {}
+  void Next(std::size_t move, std::uint8_t kind, std::int32_t region) {
+    if (kind == kBetweenPasses || std::pair(kind, region) == last_) return;
+    last_ = {kind, region};
+    Struct& item = *list_.add_values()->mutable_struct_value();
+    Set(item, "name",
+        region < 0 ? fmt::format("{} passes", kPassNames[kind])
+                   : fmt::format("region {}: {} passes", region, kPassNames[kind]));
+    Set(item, "first_move", static_cast<double>(move));
+  }
+
+ private:
+  ListValue& list_;
+  std::pair<std::uint8_t, std::int32_t> last_{kBetweenPasses, -2};
+};
+
+void AddPaths(const std::vector<v1::PathBlock>& paths, Struct& header, SceneBuffers& buffers) {
+  std::vector<float> tip, feed, seconds, arc_center, arc_turns;
+  std::vector<std::uint8_t> kind, pass_kind, arc_plane;
+  std::vector<std::int32_t> region, pass;
+  std::vector<std::uint32_t> line, arc_move;
+  Sections sections(NewList(header, "sections"));
+  for (const v1::PathBlock& block : paths) {
+    tip.insert(tip.end(), block.tip_mm().begin(), block.tip_mm().end());
+    feed.insert(feed.end(), block.feed_mm_per_min().begin(), block.feed_mm_per_min().end());
+    seconds.insert(seconds.end(), block.seconds().begin(), block.seconds().end());
+    for (int i = 0; i < block.line_size(); ++i) {
+      const auto move = kind.size();
+      kind.push_back(static_cast<std::uint8_t>(block.kind(i)));
+      const int passes = block.pass_kind_size() > 0 ? block.pass_kind(i) : 0;
+      pass_kind.push_back(passes > 0 ? static_cast<std::uint8_t>(passes - 1) : kBetweenPasses);
+      region.push_back(block.region_id_size() > 0 ? block.region_id(i) : -1);
+      pass.push_back(block.pass_index_size() > 0 ? block.pass_index(i) : -1);
+      line.push_back(static_cast<std::uint32_t>(block.line(i)));
+      sections.Next(move, pass_kind.back(), region.back());
+      if (block.arc_plane(i) == v1::ARC_PLANE_UNSPECIFIED) continue;
+      arc_move.push_back(static_cast<std::uint32_t>(move));
+      arc_plane.push_back(static_cast<std::uint8_t>(block.arc_plane(i)));
+    }
+    arc_center.insert(arc_center.end(), block.arc_center_mm().begin(), block.arc_center_mm().end());
+    arc_turns.insert(arc_turns.end(), block.arc_turns().begin(), block.arc_turns().end());
+  }
+  ListValue& names = NewList(header, "passes");
+  const bool known =
+      std::any_of(pass_kind.begin(), pass_kind.end(), [](auto k) { return k != kBetweenPasses; });
+  for (const char* name : kPassNames) {
+    if (known) names.add_values()->set_string_value(name);
+  }
+  if (kind.empty()) return;
+  buffers.Add("path.tip", tip);
+  buffers.Add("path.kind", kind);
+  buffers.Add("path.pass_kind", pass_kind);
+  buffers.Add("path.region", region);
+  buffers.Add("path.pass", pass);
+  buffers.Add("path.feed", feed);
+  buffers.Add("path.seconds", seconds);
+  buffers.Add("path.line", line);
+  if (arc_move.empty()) return;
+  buffers.Add("arc.move", arc_move);
+  buffers.Add("arc.plane", arc_plane);
+  buffers.Add("arc.center", arc_center);
+  buffers.Add("arc.turns", arc_turns);
+}
+
+void AddTool(const v1::Tool& tool, Struct& header) {
+  Struct& item = *In(header, "tool").mutable_struct_value();
+  const double diameter = tool.ball_end().diameter_mm();
+  Set(item, "ball_diameter", diameter);
+  if (tool.has_flute_length_mm()) {
+    Set(item, "flute_length", tool.flute_length_mm());
+  } else {
+    SetNull(item, "flute_length");
+  }
+  Set(item, "shank_diameter", tool.has_shank_diameter_mm() ? tool.shank_diameter_mm() : diameter);
+  if (tool.holder().empty()) {
+    SetNull(item, "holder");
+    return;
+  }
+  Struct& holder = *In(item, "holder").mutable_struct_value();
+  Set(holder, "stickout", tool.stickout_mm());
+  ListValue& profile = NewList(holder, "profile");
+  double height = 0.0;
+  for (const v1::HolderSegment& segment : tool.holder()) {
+    Add(profile, {height, 0.5 * segment.lower_diameter_mm()});
+    height += segment.length_mm();
+    Add(profile, {height, 0.5 * segment.upper_diameter_mm()});
+  }
+}
+
+void AddOutline(const google::protobuf::RepeatedField<double>& xy, Struct& item) {
+  ListValue& outline = NewList(item, "outline");
+  for (int i = 0; i + 1 < xy.size(); i += 2) Add(outline, {xy[i], xy[i + 1]});
+}
+
+// The stock has no lower end; it is drawn down to the lowest point of the part.
+void AddStock(const Scene& scene, const BoxOf& part, Struct& header) {
+  const v1::Stock& stock = scene.setup.stock();
+  if (stock.body_case() == v1::Stock::BODY_NOT_SET) return SetNull(header, "stock");
+  Struct& item = *In(header, "stock").mutable_struct_value();
+  Set(item, "bottom", part.min[2]);
+  const bool judged = scene.report.has_setup_sheet();
+  Set(item, "top",
+      judged ? scene.report.setup_sheet().stock_top_z_mm()
+             : (stock.has_top_z_mm() ? stock.top_z_mm() : part.max[2]));
+  ListValue& outline = NewList(item, "outline");
+  if (stock.has_block()) {
+    const double margin = stock.block().margin_mm();
+    const double x0 = part.min[0] - margin, x1 = part.max[0] + margin;
+    const double y0 = part.min[1] - margin, y1 = part.max[1] + margin;
+    for (const auto& [x, y] : {std::pair(x0, y0), std::pair(x1, y0), std::pair(x1, y1), std::pair(x0, y1)})
+      Add(outline, {x, y});
+  } else if (stock.has_outline()) {
+    AddOutline(stock.outline().outline_xy_mm(), item);
+  } else {
+    const auto& center = stock.cylinder().center_xy_mm();
+    const double x = center.size() == 2 ? center[0] : 0.5 * (part.min[0] + part.max[0]);
+    const double y = center.size() == 2 ? center[1] : 0.5 * (part.min[1] + part.max[1]);
+    constexpr int kCorners = 96;
+    for (int k = 0; k < kCorners; ++k) {
+      const double angle = 2.0 * std::numbers::pi * k / kCorners, r = 0.5 * stock.cylinder().diameter_mm();
+      Add(outline, {x + r * std::cos(angle), y + r * std::sin(angle)});
+    }
+  }
+}
+
+void AddClamps(const v1::Setup& setup, Struct& header) {
+  ListValue& list = NewList(header, "clamps");
+  for (int k = 0; k < setup.obstacles_size(); ++k) {
+    const v1::Obstacle& obstacle = setup.obstacles(k);
+    Struct& item = *list.add_values()->mutable_struct_value();
+    Set(item, "name", obstacle.id().empty() ? fmt::format("obstacle #{}", k) : obstacle.id());
+    AddOutline(obstacle.outline_xy_mm(), item);
+    Set(item, "top", obstacle.top_z_mm());
+  }
+}
+
+void AddFigure(ListValue& list, const std::string& name, const std::string& value) {
+  ListValue& item = *list.add_values()->mutable_list_value();
+  item.add_values()->set_string_value(name);
+  item.add_values()->set_string_value(value);
+}
+
+// The figures of the summary of `mill`, in its words.
+void AddReport(const v1::Report& report, Struct& header) {
+  Set(header, "outcome", report.outcome() == v1::OUTCOME_UNSPECIFIED ? "" : Short(report.outcome()));
+  Set(header, "time_basis", report.time_basis());
+  ListValue& figures = NewList(header, "figures");
+  if (report.outcome() != v1::OUTCOME_UNSPECIFIED) {
+    AddFigure(figures, "largest gouge", fmt::format("{:.4f} mm", report.max_gouge_mm()));
+    AddFigure(figures, "largest leftover", fmt::format("{:.4f} mm", report.max_leftover_mm()));
+    AddFigure(figures, "not reached", UncutShare(report));
+    AddFigure(figures, "lowest tip", fmt::format("Z {:.4f}", report.tip_z_min_mm()));
+    AddFigure(figures, "feed length", fmt::format("{:.2f} m", report.cut_length_mm() / 1000.0));
+    AddFigure(figures, "rapid length", fmt::format("{:.2f} m", report.rapid_length_mm() / 1000.0));
+    if (report.estimated_time_s() > 0.0)
+      AddFigure(figures, "time",
+                fmt::format("{:.1f} min ({})", report.estimated_time_s() / 60.0, report.time_basis()));
+    AddFigure(figures, "retracts", fmt::format("{}", report.retract_count()));
+    AddFigure(figures, "stick-out at least", fmt::format("{:.1f} mm", report.required_stickout_mm()));
+    if (!report.setup_sheet().work_offset().empty())
+      AddFigure(figures, "work offset", report.setup_sheet().work_offset());
+  }
+  ListValue& findings = NewList(header, "findings");
+  for (const v1::Diagnostic& finding : report.diagnostics()) {
+    Struct& item = *findings.add_values()->mutable_struct_value();
+    const char* severity = finding.severity() == v1::SEVERITY_ERROR     ? "ERROR"
+                           : finding.severity() == v1::SEVERITY_WARNING ? "WARNING"
+                                                                        : "INFO";
+    Set(item, "severity", severity);
+    Set(item, "code", finding.code());
+    Set(item, "message", finding.message());
+    if (finding.where().has_point()) {
+      SetPoint(item, "point", finding.where().point());
+    } else {
+      SetNull(item, "point");
+    }
+  }
+}
+
+}  // namespace
+
+absl::Status CheckPage() {
+  if (!ViewerPage().empty()) return absl::OkStatus();
+  return absl::FailedPreconditionError(
+      "this patchmill was built without the 3-D page; build it with Node.js (scripts/setup.sh), or choose a "
+      "picture that ends in .svg");
+}
+
+absl::StatusOr<std::string> MakePage(const Scene& scene) {
+  if (const absl::Status can = CheckPage(); !can.ok()) return can;
+  if (scene.mesh.empty()) return absl::DataLossError("the answer has no triangles; no page was written");
+  Struct header;
+  SceneBuffers buffers;
+  Set(header, "version", 1.0);
+  Set(header, "title", scene.title);
+  Set(header, "made_by", "patchmill " PATCHMILL_VERSION);
+  Set(header, "tolerance", scene.tolerance);
+  if (scene.scallop) {
+    Set(header, "scallop", *scene.scallop);
+  } else {
+    SetNull(header, "scallop");
+  }
+  Set(header, "steep_angle", scene.steep_angle);
+  const BoxOf box = MeshBox(scene.mesh);
+  Struct& corners = *In(header, "box").mutable_struct_value();
+  for (const auto& [name, corner] : {std::pair("min", box.min), std::pair("max", box.max)}) {
+    ListValue& list = NewList(corners, name);
+    for (const double x : corner) list.add_values()->set_number_value(x);
+  }
+  AddTool(scene.tool, header);
+  AddStock(scene, box, header);
+  AddClamps(scene.setup, header);
+  AddReport(scene.report, header);
+  AddRegions(scene.regions, header);
+  AddBorders(scene.regions, header, buffers);
+  AddMesh(scene.mesh, header, buffers);
+  AddPaths(scene.paths, header, buffers);
+  if (!scene.program.empty()) buffers.Add("program.text", scene.program);
+  *In(header, "buffers").mutable_struct_value() = buffers.table();
+  // No text of a client may end the script that holds the header.
+  const std::string json = absl::StrReplaceAll(SortedJson(header), {{"<", "\\u003c"}});
+  constexpr std::string_view kScene = "@PATCHMILL_SCENE@", kData = "@PATCHMILL_DATA@";
+  const std::string_view page = ViewerPage();
+  const std::size_t scene_at = page.find(kScene), data_at = page.find(kData);
+  if (scene_at == page.npos || data_at == page.npos || data_at < scene_at)
+    return absl::InternalError("the 3-D page has no place for the scene");
+  std::string html(page.substr(0, scene_at));
+  html += json;
+  html += page.substr(scene_at + kScene.size(), data_at - scene_at - kScene.size());
+  html += absl::Base64Escape(buffers.bytes());
+  html += page.substr(data_at + kData.size());
+  return html;
+}
+
+}  // namespace patchmill::cli

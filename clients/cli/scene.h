@@ -1,0 +1,40 @@
+// The 3-D page of a job: the part, the regions, the program and the tool, in one HTML file that needs no
+// network.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <absl/status/statusor.h>
+
+#include "patchmill/v1/region.pb.h"
+#include "patchmill/v1/report.pb.h"
+#include "patchmill/v1/setup.pb.h"
+#include "patchmill/v1/tool.pb.h"
+#include "patchmill/v1/toolpath.pb.h"
+
+namespace patchmill::cli {
+
+// What a page shows; what is absent is not shown.
+struct Scene {
+  std::string title;
+  v1::Setup setup;
+  v1::Tool tool;
+  double tolerance = 0.0;         // mm
+  std::optional<double> scallop;  // mm
+  double steep_angle = 45.0;      // degrees
+  v1::RegionMap regions;
+  v1::Report report;
+  std::vector<v1::MeshBlock> mesh;
+  std::vector<v1::PathBlock> paths;
+  std::string program;
+};
+
+// The page as HTML. FAILED_PRECONDITION if this program was built without it.
+absl::StatusOr<std::string> MakePage(const Scene& scene);
+
+// OK if MakePage can make a page.
+absl::Status CheckPage();
+
+}  // namespace patchmill::cli
