@@ -203,9 +203,17 @@ class StretchFinder {
       return chord.first + place / places * (chord.last - chord.first);
     };
     const auto bare = [&](int place, double side) {
-      const double off = kLookBeside * cell + std::max(0.0, side * chord.bend);
+      const double bend = std::max(0.0, side * chord.bend);
+      const auto beside = [&](double off) -> Vec2 {
+        return at(place + 0.5) + side * (off + bend) * chord.normal;
+      };
       const StripKind kind = LooksAway(chord.air_side, side) ? StripKind::kMaterial : StripKind::kOutside;
-      return IsBare(kind, at(place + 0.5) + side * off * chord.normal);
+      if (!IsBare(kind, beside(kLookBeside * cell))) return false;
+      // A rib may be thinner than that, and its top is the part's.
+      const double gap = GapOf(params_);
+      const Vec2 close = beside(gap);
+      return kind != StripKind::kMaterial ||
+             !AnyInColumn(surface_, {close, close, 0.5 * gap}, -kInfinity, 0.25 * gap);
     };
     std::vector<BarePart> parts;
     for (int k = 0; k < places; ++k) {

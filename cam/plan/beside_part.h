@@ -35,7 +35,7 @@ struct BesidePartParams {
 // an area only if the part lies on its other side. Curved walls are replaced by chords, which deviate from
 // the wall by at most half of the distance at which areas begin. Outer border and holes are found on a grid
 // of 400 cells along the longer side of the part; gaps narrower than a cell count as part. Walls are sampled
-// every four cells.
+// every four cells. Behind a wall the surface itself is asked, too: a rib may be thinner than a cell.
 //
 // Deterministic. Cost: some microseconds per sample of a wall; nothing if there is no vertical piece.
 // CANCELLED and DEADLINE_EXCEEDED from `run`.

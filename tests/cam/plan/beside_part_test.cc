@@ -105,6 +105,25 @@ TEST(BesideStrips, StandBesideAWallThatAStepTouches) {
   EXPECT_FALSE(Covers(strips, {0.0, -20.0}));
 }
 
+// A thin rib along the border of a large plate: no cell of the grid lies on its top alone.
+TEST(BesideStrips, LeaveTheTopOfAThinRibAlone) {
+  constexpr double kHalf = 240.0, kWide = 150.0, kPlate = 2.0, kTop = 20.0;
+  for (const double thick : {0.6, 1.0, 1.9, 4.0}) {
+    const double inner = kWide - thick;
+    const auto strips = StripsOf(Join(
+        {Level(-kHalf, -kWide, kHalf, kWide, 0), Level(-kHalf, -kWide, kHalf, inner, kPlate),
+         Level(-kHalf, inner, kHalf, kWide, kTop), Wall({-kHalf, inner}, {kHalf, inner}, kPlate, kTop),
+         Wall({kHalf, kWide}, {-kHalf, kWide}, 0, kTop), Wall({-kHalf, -kWide}, {kHalf, -kWide}, 0, kPlate),
+         Wall({-kHalf, -kWide}, {-kHalf, inner}, 0, kPlate), Wall({kHalf, -kWide}, {kHalf, inner}, 0, kPlate),
+         Wall({-kHalf, inner}, {-kHalf, kWide}, 0, kTop), Wall({kHalf, inner}, {kHalf, kWide}, 0, kTop)}));
+    for (const double x : {-200.0, -31.0, 0.0, 150.0}) {
+      EXPECT_FALSE(Covers(strips, {x, kWide - 0.5 * thick})) << thick;
+      EXPECT_FALSE(Covers(strips, {x, inner + 0.9 * thick})) << thick;
+      EXPECT_TRUE(Covers(strips, {x, kWide + kBall})) << thick;
+    }
+  }
+}
+
 // A channel around a core that the model does not have: behind its inner wall there is material, though it
 // is a hole as seen from above.
 TEST(BesideStrips, AreMaterialInsideAChannel) {
