@@ -1,7 +1,7 @@
 // Shows where passes start and which way they run, by signs of constant size in the picture.
 import { BufferAttribute, BufferGeometry, DynamicDrawUsage, GLSL3, Mesh, RawShaderMaterial } from "three";
 import type { Camera } from "./camera";
-import type { PathVertices } from "./path_vertices";
+import { type PathVertices, segmentLength } from "./path_vertices";
 import { Kind, type Path } from "./scene";
 import { biasedPosition, plainColor, type SharedUniforms } from "./uniforms";
 
@@ -61,12 +61,7 @@ export function passSigns(path: Path, vertices: PathVertices, size: number): Sig
   runs.forEach(([first, last], i) => {
     if (i % step !== 0) return;
     let length = 0;
-    const lengthTo = (v: number): number =>
-      Math.hypot(
-        position[3 * v]! - position[3 * v - 3]!,
-        position[3 * v + 1]! - position[3 * v - 2]!,
-        position[3 * v + 2]! - position[3 * v - 1]!,
-      );
+    const lengthTo = (v: number): number => segmentLength(position, v);
     for (let v = first + 1; v <= last; v++) length += lengthTo(v);
     const arrows = Math.min(40, Math.max(1, Math.round(length / (0.4 * size))));
     // Trailing zeros of the number of the run: every second run is half as important.
@@ -140,10 +135,11 @@ export class Arrows {
         to++;
       }
     };
+    camera.update();
     const columns = Math.ceil(camera.width / cell) + 2;
     for (const { vertex, isStart } of this.#signs) {
       if (taken.size >= most) break;
-      const { x, y, depth } = camera.project(position.subarray(3 * vertex, 3 * vertex + 3));
+      const { x, y, depth } = camera.projectNow(position[3 * vertex]!, position[3 * vertex + 1]!, position[3 * vertex + 2]!);
       if (depth <= 0 || x < 0 || y < 0 || x > camera.width || y > camera.heightPx) continue;
       const key = Math.floor(y / cell) * columns + Math.floor(x / cell);
       if (taken.has(key)) continue;

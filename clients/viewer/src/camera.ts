@@ -100,10 +100,20 @@ export class Camera {
   // The pixel of a point, and its depth in front of the eye (mm).
   project(point: ArrayLike<number>): { x: number; y: number; depth: number } {
     this.update();
-    const v = new Vector3(point[0], point[1], point[2]).sub(this.eye);
-    const depth = -v.dot(this.back);
+    return this.projectNow(point[0]!, point[1]!, point[2]!);
+  }
+
+  // The same for many points: update() has to come first.
+  projectNow(x: number, y: number, z: number): { x: number; y: number; depth: number } {
+    const { eye, back, right, up } = this;
+    const [vx, vy, vz] = [x - eye.x, y - eye.y, z - eye.z];
+    const depth = -(vx * back.x + vy * back.y + vz * back.z);
     const pixel = this.pixelAtDepth(Math.max(depth, 1e-9));
-    return { x: this.width / 2 + v.dot(this.right) / pixel, y: this.heightPx / 2 - v.dot(this.up) / pixel, depth };
+    return {
+      x: this.width / 2 + (vx * right.x + vy * right.y + vz * right.z) / pixel,
+      y: this.heightPx / 2 - (vx * up.x + vy * up.y + vz * up.z) / pixel,
+      depth,
+    };
   }
 
   orbit(yaw: number, pitch: number): void {

@@ -21,6 +21,9 @@ export function makeLayers(viewer: Viewer): void {
   });
   const part = byId<HTMLSelectElement>("path-part");
   const point = byId<HTMLSelectElement>("path-point");
+  const every = byId<HTMLInputElement>("every-pass");
+  every.addEventListener("change", () => viewer.setEveryPass(every.checked));
+  byId("every-row").hidden = viewer.timeline === null;
   byId("part-row").hidden = viewer.timeline === null;
   byId("point-row").hidden = viewer.timeline === null || viewer.scene.mesh === null;
   part.addEventListener("change", () => viewer.setPathPart(part.value as PathPart));
@@ -42,6 +45,7 @@ export function makeLayers(viewer: Viewer): void {
       input.checked = layer.isShown;
       if (layer.color !== null) chip.style.background = layer.color;
     }
+    every.checked = viewer.isEveryPassDrawn;
     part.value = viewer.pathPart;
     point.value = viewer.pathPoint;
   };

@@ -2,7 +2,7 @@
 import { BufferAttribute, BufferGeometry, Color, DataTexture, DoubleSide, GLSL3, LinearFilter, Mesh as Mesh3, RawShaderMaterial, RGBAFormat } from "three";
 import type { Mesh } from "./scene";
 import { colors, type Scale, type Shading } from "./shading";
-import { plainColor, type SharedUniforms } from "./uniforms";
+import { light, plainColor, type SharedUniforms } from "./uniforms";
 
 const vertexShader = `
 precision highp float;
@@ -13,16 +13,20 @@ in vec3 position;
 in vec3 normal;
 in vec3 tint;
 in vec2 value; // and 1 if it is known
-out vec3 vNormal;
-out vec3 vView;
-out vec3 vPoint;
 out vec3 vTint;
 out vec2 vValue;
+out float vLight;
+#ifdef CUT
+uniform vec4 plane;
+out float vSide;
+#endif
+${light}
 void main() {
   vec4 v = modelViewMatrix * vec4(position, 1.0);
-  vNormal = normalMatrix * normal;
-  vView = v.xyz;
-  vPoint = position;
+  vLight = light(normalMatrix * normal, v.xyz);
+#ifdef CUT
+  vSide = dot(plane.xyz, position) + plane.w;
+#endif
   vTint = tint;
   vValue = value;
   gl_Position = projectionMatrix * v;
@@ -30,8 +34,6 @@ void main() {
 
 const fragmentShader = `
 precision highp float;
-uniform vec4 plane;
-uniform float isOrthographic;
 uniform float isScaled;
 uniform vec2 range;
 uniform float mark;
@@ -39,33 +41,35 @@ uniform sampler2D ramp;
 uniform vec3 under;
 uniform vec3 over;
 uniform vec3 unknown;
-in vec3 vNormal;
-in vec3 vView;
-in vec3 vPoint;
 in vec3 vTint;
 in vec2 vValue;
+in float vLight;
+#ifdef CUT
+in float vSide;
+#endif
 out vec4 color;
 void main() {
-  float side = dot(plane.xyz, vPoint) + plane.w;
-  float sideStep = fwidth(side);
+#ifdef CUT
+  float sideStep = fwidth(vSide);
   float markStep = fwidth(vValue.x);
-  if (side < 0.0) discard;
+  if (vSide < 0.0) discard;
+#endif
   vec3 base = vTint;
   if (isScaled > 0.5) {
     if (vValue.y < 0.999) base = unknown;
     else if (vValue.x < range.x) base = under;
     else if (vValue.x > range.y) base = over;
     else base = texture(ramp, vec2((vValue.x - range.x) / (range.y - range.x), 0.5)).rgb;
+#ifndef CUT
+    float markStep = mark > -1e29 ? fwidth(vValue.x) : 0.0;
+#endif
     if (mark > -1e29 && abs(vValue.x - mark) < 0.8 * markStep) base = vec3(0.07);
   }
-  vec3 n = normalize(vNormal);
-  vec3 toEye = isOrthographic > 0.5 ? vec3(0.0, 0.0, 1.0) : normalize(-vView);
-  if (dot(n, toEye) < 0.0) n = -n;
-  float head = dot(n, toEye);
-  float lamp = max(0.0, dot(n, normalize(vec3(-0.45, 0.75, 0.5))));
-  vec3 lit = base * (0.46 + 0.36 * head + 0.24 * lamp);
+  vec3 lit = base * vLight;
   if (!gl_FrontFacing) lit *= 0.82;
-  if (dot(plane.xyz, plane.xyz) > 0.5 && side < 1.2 * sideStep) lit *= 0.35;
+#ifdef CUT
+  if (vSide < 1.2 * sideStep) lit *= 0.35; // the edge of the section
+#endif
   color = vec4(lit, 1.0);
 }`;
 
@@ -193,6 +197,13 @@ export class MeshView {
     });
     this.object = new Mesh3(geometry, this.#material);
     this.object.frustumCulled = false;
+  }
+
+  // The shader looks for the section plane only if there is one: without it, hidden fragments cost nothing.
+  setCut(isCut: boolean): void {
+    if ("CUT" in (this.#material.defines ?? {}) === isCut) return;
+    this.#material.defines = isCut ? { CUT: "" } : {};
+    this.#material.needsUpdate = true;
   }
 
   shade(shading: Shading): void {

@@ -28,6 +28,7 @@ export class Overlay {
     this.#measure = measure;
     viewer.on("view", () => this.queue());
     viewer.on("theme", () => this.queue());
+    viewer.on("layers", () => this.queue());
   }
 
   queue(): void {
@@ -92,8 +93,12 @@ export class Overlay {
     while (length > 130 * pixel) length = roundUp(length / 2.6);
     const size = length / pixel;
     const [right, y] = [camera.width - 16, camera.heightPx - 20];
+    const thinned = this.#viewer.drawnPasses.map(({ name, step }, i) =>
+      shape("text", { x: right, y: y - 28 - 16 * i, "text-anchor": "end" }, `drawn: every ${step}${step % 10 === 2 && step !== 12 ? "nd" : "th"} ${name}`),
+    );
     const note = camera.isOrthographic ? "" : " at the centre";
     return [
+      ...thinned,
       shape("path", { d: `M${px(right - size)} ${y - 5}v5h${px(size)}v-5`, class: "thin" }),
       shape("text", { x: right, y: y - 9, "text-anchor": "end" }, `${Number(length.toPrecision(6))} mm${note}`),
     ];

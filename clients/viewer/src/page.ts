@@ -194,7 +194,6 @@ export function showPage(scene: Scene): Page {
     overlay.isCrossShown = false;
     overlay.queue();
   });
-  viewer.on("layers", () => overlay.queue());
 
   let isFitted = false;
   const resize = (): void => {

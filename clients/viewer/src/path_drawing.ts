@@ -1,6 +1,7 @@
 // A path as it is drawn: its lines, the signs on it and the search for a move under a pixel.
 import { Group } from "three";
 import { Arrows } from "./arrows";
+import { passRanks } from "./density";
 import { PathPicker } from "./path_pick";
 import type { PathVertices } from "./path_vertices";
 import { PathView } from "./path_view";
@@ -11,13 +12,15 @@ export class PathDrawing {
   readonly vertices: PathVertices;
   readonly view: PathView;
   readonly arrows: Arrows;
+  readonly ranks: Uint8Array;
   readonly object = new Group();
   #picker: PathPicker | null = null;
 
   // `size` (mm) is that of the part, `lift` (mm) how far the triangles of the surface may lie above it.
   constructor(path: Path, vertices: PathVertices, size: number, lift: number, shared: SharedUniforms) {
     this.vertices = vertices;
-    this.view = new PathView(vertices, size, lift, shared);
+    this.ranks = passRanks(path, vertices);
+    this.view = new PathView(vertices, this.ranks, size, lift, shared);
     this.arrows = new Arrows(path, vertices, size, shared);
     this.object.add(this.view.object, this.arrows.object);
   }

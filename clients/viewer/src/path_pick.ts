@@ -110,7 +110,7 @@ function nearestOnSegment(ray: Ray, p: Float32Array, s: number): Near {
   return {
     share,
     distance: wd + share * ud,
-    gap: Math.hypot(bx + share * ax, by + share * ay, bz + share * az),
+    gap: Math.sqrt((bx + share * ax) ** 2 + (by + share * ay) ** 2 + (bz + share * az) ** 2),
     point: [p[i]! + share * ux, p[i + 1]! + share * uy, p[i + 2]! + share * uz],
   };
 }

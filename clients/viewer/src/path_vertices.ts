@@ -15,6 +15,14 @@ export interface PathVertices {
   time: Float32Array; // s, at the vertex
 }
 
+export function segmentLength(position: Float32Array, end: number): number {
+  const i = 3 * end;
+  const x = position[i]! - position[i - 3]!;
+  const y = position[i + 1]! - position[i - 2]!;
+  const z = position[i + 2]! - position[i - 1]!;
+  return Math.sqrt(x * x + y * y + z * z);
+}
+
 export function classOf(path: Path, move: number): number {
   switch (path.kind[move]) {
     case Kind.rapid:

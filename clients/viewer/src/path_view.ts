@@ -6,7 +6,8 @@ import { maxClasses, type PathVertices } from "./path_vertices";
 import { type Level, thin } from "./thin";
 import { biasedPosition, plainColor, type SharedUniforms } from "./uniforms";
 
-const chunkSize = 4096; // vertices
+const chunkSize = 4096; // vertices at most
+const shortChunk = 128; // a chunk with more vertices ends where a pass ends
 const levelCount = 9;
 
 // The class of a segment is that of its end: the last vertex gives the flat value.
@@ -15,16 +16,16 @@ precision highp float;
 precision highp int;
 ${biasedPosition}
 in vec3 position;
-in float moveClass;
+in vec2 look; // class and rank
 in float time;
 out vec3 vPoint;
 out float vTime;
-flat out int vClass;
+flat out ivec2 vLook;
 uniform float lift;
 void main() {
   vPoint = position;
   vTime = time;
-  vClass = int(moveClass + 0.5);
+  vLook = ivec2(look + 0.5);
   gl_Position = biasedPosition(position, 3.0, lift);
 }`;
 
@@ -35,19 +36,34 @@ uniform vec4 plane;
 uniform float isCut; // 1: the section plane cuts the path too
 uniform float now;
 uniform vec2 shown; // of the path before and after now
+uniform vec2 pass; // times between which the pass runs that is cut now
 uniform vec3 background;
 uniform sampler2D palette;
 in vec3 vPoint;
 in float vTime;
-flat in int vClass;
+flat in ivec2 vLook;
 out vec4 color;
 void main() {
   if (isCut > 0.5 && dot(plane.xyz, vPoint) + plane.w < 0.0) discard;
-  vec4 c = texelFetch(palette, ivec2(vClass, 0), 0);
+  vec4 c = texelFetch(palette, ivec2(vLook.x, 0), 0);
   bool isDone = vTime <= now;
-  if (c.a < 0.5 || (isDone ? shown.x : shown.y) < 0.5) discard;
+  int least = int(c.a * 255.0 + 0.5) - 1; // of the ranks that are drawn; -1: none
+  if (least < 0 || (isDone ? shown.x : shown.y) < 0.5) discard;
+  if (vLook.y < least && (vTime < pass.x || vTime > pass.y)) discard;
   color = vec4(isDone ? c.rgb : mix(c.rgb, background, 0.62), 1.0);
 }`;
+
+// The first vertices of chunks, and the last vertex of the path. The last vertex of a chunk is the first one of the next.
+export function chunkStarts(ranks: Uint8Array): Uint32Array {
+  const starts = [0];
+  let first = 0;
+  for (let v = 1; v + 1 < ranks.length; v++) {
+    if (v - first < chunkSize && (v - first < shortChunk || ranks[v + 1] === ranks[v])) continue;
+    starts.push(v);
+    first = v;
+  }
+  return Uint32Array.from([...starts, Math.max(0, ranks.length - 1)]);
+}
 
 interface DrawnLevel {
   tolerance: number;
@@ -61,18 +77,34 @@ export class PathView {
   readonly #levels: DrawnLevel[] = [];
   readonly #boxes: Float32Array; // of each chunk
   readonly #chunks: number;
+  readonly #starts: Uint32Array; // of chunks, in the vertices; one more at the end
+  readonly #rank: Uint8Array; // the greatest one of each chunk
+  readonly #classes: number[][] = []; // of each chunk
+  readonly #time: Float32Array;
   readonly #palette = new Uint8Array(4 * maxClasses);
   readonly #paletteTexture: DataTexture;
   drawnSegments = 0;
 
   // `size` (mm) is that of the scene, `lift` (mm) how far the triangles of the surface may lie above it.
-  constructor(vertices: PathVertices, size: number, lift: number, shared: SharedUniforms) {
+  constructor(vertices: PathVertices, ranks: Uint8Array, size: number, lift: number, shared: SharedUniforms) {
     const count = vertices.class.length;
-    this.#chunks = Math.max(1, Math.ceil((count - 1) / chunkSize));
+    this.#starts = chunkStarts(ranks);
+    this.#chunks = this.#starts.length - 1;
     this.#boxes = new Float32Array(6 * this.#chunks);
+    this.#time = vertices.time;
+    this.#rank = new Uint8Array(this.#chunks);
+    const stays = new Uint8Array(count);
     for (let c = 0; c < this.#chunks; c++) {
-      const first = c * chunkSize;
-      boxOfPoints(vertices.position, first, Math.min(chunkSize + 1, count - first), this.#boxes, 6 * c);
+      const first = this.#starts[c]!;
+      const last = this.#starts[c + 1]!;
+      stays[first] = 1;
+      boxOfPoints(vertices.position, first, last - first + 1, this.#boxes, 6 * c);
+      const classes = new Set<number>();
+      for (let v = first + 1; v <= last; v++) {
+        this.#rank[c] = Math.max(this.#rank[c]!, ranks[v]!);
+        if (vertices.class[v] !== vertices.class[v - 1] || v === first + 1) classes.add(vertices.class[v]!);
+      }
+      this.#classes.push([...classes]);
     }
     this.#paletteTexture = new DataTexture(this.#palette, maxClasses, 1, RGBAFormat);
     this.#paletteTexture.minFilter = this.#paletteTexture.magFilter = NearestFilter;
@@ -88,19 +120,25 @@ export class PathView {
         isCut: { value: 0 },
         now: { value: 0 },
         shown: { value: [1, 1] },
+        pass: { value: [1, 0] },
         lift: { value: lift },
         palette: { value: this.#paletteTexture },
       },
     });
+    const look = new Uint8Array(2 * count);
+    for (let v = 0; v < count; v++) {
+      look[2 * v] = vertices.class[v]!;
+      look[2 * v + 1] = ranks[v]!;
+    }
     const attributes = {
       position: new BufferAttribute(vertices.position, 3),
-      moveClass: new BufferAttribute(vertices.class, 1),
+      look: new BufferAttribute(look, 2),
       time: new BufferAttribute(vertices.time, 1),
     };
     const tolerances = Array.from({ length: levelCount }, (_, k) => (size / 16384) * 2 ** k);
     const levels: Level[] = [];
     // The levels hold few vertices of a small path, so it is drawn as it is.
-    if (count > 20000) levels.push(...thin(vertices.position, vertices.class, chunkSize, tolerances));
+    if (count > 20000) levels.push(...thin(vertices.position, vertices.class, stays, tolerances));
     this.#add(attributes, null, 0, count);
     for (const level of levels) this.#add(attributes, level.kept, level.tolerance, level.kept.length);
   }
@@ -112,8 +150,8 @@ export class PathView {
     const start = new Uint32Array(this.#chunks + 1);
     for (let c = 1, i = 0; c < this.#chunks; c++) {
       // Chunks begin at kept vertices.
-      while (kept !== null && kept[i]! < c * chunkSize) i++;
-      start[c] = kept === null ? c * chunkSize : i;
+      while (kept !== null && kept[i]! < this.#starts[c]!) i++;
+      start[c] = kept === null ? this.#starts[c]! : i;
     }
     start[this.#chunks] = count - 1;
     const line = new Line(geometry, [this.material]);
@@ -128,16 +166,18 @@ export class PathView {
     return this.#levels.map((level) => level.start[this.#chunks]!);
   }
 
-  setColors(colors: { color: string; isShown: boolean }[]): void {
+  // A class is drawn from its least rank on, or not at all.
+  setColors(colors: { color: string; isShown: boolean }[], least: Uint8Array): void {
     colors.forEach(({ color, isShown }, i) => {
       const rgb = plainColor(color);
-      this.#palette.set([rgb.r * 255, rgb.g * 255, rgb.b * 255, isShown ? 255 : 0], 4 * i);
+      this.#palette.set([rgb.r * 255, rgb.g * 255, rgb.b * 255, isShown ? least[i]! + 1 : 0], 4 * i);
     });
     this.#paletteTexture.needsUpdate = true;
   }
 
-  // Chooses for each chunk the level that is within `pixels` of the path in the picture.
-  choose(camera: Camera, pixels: number): void {
+  // Chooses for each chunk the level that is within `pixels` of the path in the picture. Chunks whose passes are all below
+  // the `least` ranks are left out, but for that of the pass that runs in the times `pass`.
+  choose(camera: Camera, pixels: number, least: Uint8Array, pass: [number, number]): void {
     for (const level of this.#levels) level.line.geometry.clearGroups();
     this.drawnSegments = 0;
     let run = -1; // level of the last chunk, -1 if it was not drawn
@@ -150,13 +190,18 @@ export class PathView {
       this.drawnSegments += size;
     };
     for (let c = 0; c <= this.#chunks; c++) {
-      const level = c === this.#chunks ? -1 : this.#levelOf(c, camera, pixels);
+      const level = c < this.#chunks && this.#isDrawn(c, least, pass) ? this.#levelOf(c, camera, pixels) : -1;
       if (level === run && c < this.#chunks) continue;
       close(run, c);
       run = level;
       from = c;
     }
     for (const level of this.#levels) level.line.visible = level.line.geometry.groups.length > 0;
+  }
+
+  #isDrawn(chunk: number, least: Uint8Array, pass: [number, number]): boolean {
+    if (this.#classes[chunk]!.some((c) => this.#rank[chunk]! >= least[c]!)) return true;
+    return this.#time[this.#starts[chunk + 1]!]! >= pass[0] && this.#time[this.#starts[chunk]!]! <= pass[1];
   }
 
   #levelOf(chunk: number, camera: Camera, pixels: number): number {

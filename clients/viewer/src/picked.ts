@@ -2,7 +2,7 @@
 import { type MeshHit, valueAt } from "./mesh_pick";
 import type { PathHit } from "./path_pick";
 import type { ProgramText } from "./program_text";
-import { kindNames, type Point3, type Scene } from "./scene";
+import { betweenPasses, kindNames, type Point3, type Scene } from "./scene";
 
 export interface PickedSurface {
   kind: "surface";
@@ -51,6 +51,11 @@ export function pickedSurface(scene: Scene, hit: MeshHit): PickedSurface {
   };
 }
 
+function passNameAt(scene: Scene, kind: number | undefined): string | null {
+  const name = scene.header.passes[kind ?? betweenPasses];
+  return name === undefined ? null : passName(name);
+}
+
 export function pickedMove(scene: Scene, hit: Pick<PathHit, "move" | "share" | "point">, program: ProgramText | null): PickedMove {
   const path = scene.path!;
   const { move } = hit;
@@ -61,12 +66,17 @@ export function pickedMove(scene: Scene, hit: Pick<PathHit, "move" | "share" | "
     move,
     share: hit.share,
     moveKind: kindNames[path.kind[move]!]!,
-    pass: scene.header.passes[path.passKind?.[move] ?? 255] ?? null,
+    pass: passNameAt(scene, path.passKind?.[move]),
     region: regionName(scene, path.region?.[move]),
     feed: path.feed?.[move] ?? null,
     line,
     text: line > 0 && program !== null ? program.line(line) : "",
   };
+}
+
+// The kinds of passes as the manual writes them; others stay as they are.
+export function passName(kind: string): string {
+  return kind === "zigzag" ? "zig-zag" : kind;
 }
 
 const minus = (text: string): string => text.replace("-", "\u2212");

@@ -8,13 +8,19 @@ export class ProgramText {
 
   constructor(text: Uint8Array) {
     this.#text = text;
+    let start = new Uint32Array(1024 + Math.ceil(text.length / 24));
     let lines = 0;
-    for (let at = text.indexOf(10); at >= 0; at = text.indexOf(10, at + 1)) lines++;
-    const isOpen = text.length > 0 && text[text.length - 1] !== 10;
-    this.#start = new Uint32Array(lines + (isOpen ? 1 : 0) + 1);
-    let line = 1;
-    for (let at = text.indexOf(10); at >= 0; at = text.indexOf(10, at + 1)) this.#start[line++] = at + 1;
-    if (isOpen) this.#start[line] = text.length;
+    for (let at = 0; at < text.length; at++) {
+      if (text[at] !== 10) continue;
+      if (++lines + 2 > start.length) {
+        const longer = new Uint32Array(2 * start.length);
+        longer.set(start);
+        start = longer;
+      }
+      start[lines] = at + 1;
+    }
+    if (text.length > 0 && text[text.length - 1] !== 10) start[++lines] = text.length;
+    this.#start = start.subarray(0, lines + 1);
   }
 
   get lines(): number {

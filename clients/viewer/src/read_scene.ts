@@ -1,4 +1,5 @@
 // Reads a scene: views of the binary block, checked so that nothing behind them has to check again.
+import { ProgramText } from "./program_text";
 import { readHeader } from "./read_header";
 import { type Arcs, betweenPasses, type Header, type Mesh, type Path, type Scene, SceneError } from "./scene";
 
@@ -214,12 +215,6 @@ function readPath(buffers: Buffers, header: Header, ids: Set<number>, lines: num
   return path;
 }
 
-export function countLines(text: Uint8Array): number {
-  let lines = text.length > 0 && text[text.length - 1] !== 10 ? 1 : 0;
-  for (let at = text.indexOf(10); at >= 0; at = text.indexOf(10, at + 1)) lines++;
-  return lines;
-}
-
 // Reads a scene from its parsed JSON header and its binary block. It throws a SceneError if the scene is damaged.
 export function readScene(json: unknown, block: ArrayBuffer): Scene {
   need(new Uint8Array(new Uint32Array([1]).buffer)[0] === 1, "This computer stores numbers in an order that the page cannot read.");
@@ -227,9 +222,10 @@ export function readScene(json: unknown, block: ArrayBuffer): Scene {
   const buffers = new Buffers((json as { buffers?: unknown }).buffers, block);
   const ids = new Set(header.regions.map((r) => r.id));
   need(ids.size === header.regions.length, "Two regions have the same id.");
-  const program = buffers.get("program.text");
+  const text = buffers.get("program.text");
+  const program = text === null ? null : new ProgramText(text);
   const mesh = readMesh(buffers, header, ids);
-  const path = readPath(buffers, header, ids, program === null ? null : countLines(program));
+  const path = readPath(buffers, header, ids, program === null ? null : program.lines);
   const borderPosition = buffers.get("border.position");
   needFinite(borderPosition, "border.position");
   const points = borderPosition === null ? 0 : borderPosition.length / 3;

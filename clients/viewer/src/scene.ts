@@ -1,6 +1,8 @@
 // The scene: the header and the typed arrays that a Patchmill program hands to the viewer.
 // Lengths are in mm, angles in degrees, feeds in mm/min and times in s.
 
+import type { ProgramText } from "./program_text";
+
 export type Point3 = [number, number, number];
 
 export interface Finding {
@@ -110,7 +112,7 @@ export interface Scene {
   mesh: Mesh | null;
   borderPosition: Float32Array | null;
   path: Path | null;
-  program: Uint8Array | null; // UTF-8
+  program: ProgramText | null;
 }
 
 // The kinds of moves, as path.kind numbers them.

@@ -1,6 +1,6 @@
 // The material of tool, stock and clamps: one colour under the light of the part, and lines for their edges.
 import { BufferAttribute, BufferGeometry, Color, DoubleSide, FrontSide, GLSL3, Group, LineSegments, Mesh, RawShaderMaterial, ShapeUtils, Vector2 } from "three";
-import { biasedPosition, plainColor, type SharedUniforms } from "./uniforms";
+import { biasedPosition, light, plainColor, type SharedUniforms } from "./uniforms";
 
 const vertexShader = `
 precision highp float;
@@ -10,13 +10,12 @@ uniform mat4 modelMatrix;
 uniform mat3 normalMatrix;
 in vec3 position;
 in vec3 normal;
-out vec3 vNormal;
-out vec3 vView;
+out float vLight;
 out vec3 vPoint;
+${light}
 void main() {
   vec4 v = modelViewMatrix * vec4(position, 1.0);
-  vNormal = normalMatrix * normal;
-  vView = v.xyz;
+  vLight = light(normalMatrix * normal, v.xyz);
   vPoint = (modelMatrix * vec4(position, 1.0)).xyz;
   gl_Position = projectionMatrix * v;
 }`;
@@ -25,20 +24,14 @@ const fragmentShader = `
 precision highp float;
 uniform vec4 plane;
 uniform float isCut;
-uniform float isOrthographic;
 uniform vec3 base;
 uniform float opacity;
-in vec3 vNormal;
-in vec3 vView;
+in float vLight;
 in vec3 vPoint;
 out vec4 color;
 void main() {
   if (isCut > 0.5 && dot(plane.xyz, vPoint) + plane.w < 0.0) discard;
-  vec3 n = normalize(vNormal);
-  vec3 toEye = isOrthographic > 0.5 ? vec3(0.0, 0.0, 1.0) : normalize(-vView);
-  if (dot(n, toEye) < 0.0) n = -n;
-  float lamp = max(0.0, dot(n, normalize(vec3(-0.45, 0.75, 0.5))));
-  color = vec4(base * (0.5 + 0.3 * dot(n, toEye) + 0.26 * lamp), opacity);
+  color = vec4(base * vLight, opacity);
 }`;
 
 export function solidMaterial(color: string, opacity: number, isCut: boolean, shared: SharedUniforms): RawShaderMaterial {

@@ -47,6 +47,8 @@ export function makePanels(): void {
   const arrange = (): void => {
     setPanel("left", !narrow.matches);
     setPanel("right", !narrow.matches);
+    // There the legend lies on the picture.
+    byId(narrow.matches ? "stage" : "legend-place").append(byId("legend"));
     byId<HTMLDetailsElement>("legend").open = !narrow.matches;
   };
   narrow.addEventListener("change", arrange);

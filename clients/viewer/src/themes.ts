@@ -21,7 +21,7 @@ export const themes: Record<ThemeName, Theme> = {
   },
   dark: {
     background: "#14181d",
-    ink: "#0a0c0f",
+    ink: "#f4f6f8",
     stock: "#b8a27a",
     section: "#ff9a57",
     paths: ["#ff6b78", "#46c274", "#2fc4d8", "#b48cf0", "#5b9bff"],

@@ -36,6 +36,17 @@ vec4 biasedPosition(vec3 p, float bias, float lift) {
 }
 `;
 
+// How bright a surface is: a lamp at the eye, and one behind the left shoulder. Both sides of the surface are lit alike.
+export const light = `
+uniform float isOrthographic;
+float light(vec3 normal, vec3 view) {
+  vec3 n = normalize(normal);
+  vec3 toEye = isOrthographic > 0.5 ? vec3(0.0, 0.0, 1.0) : normalize(-view);
+  if (dot(n, toEye) < 0.0) n = -n;
+  return 0.46 + 0.36 * dot(n, toEye) + 0.24 * max(0.0, dot(n, normalize(vec3(-0.45, 0.75, 0.5))));
+}
+`;
+
 // Colours as three.js would not change them: the shaders write what the style sheet means.
 export function plainColor(css: string): Color {
   const v = parseInt(css.slice(1), 16);

@@ -5,9 +5,10 @@ import { contactVertices } from "./contact";
 import { MeshPicker } from "./mesh_pick";
 import { MeshView } from "./mesh_view";
 import { PathDrawing } from "./path_drawing";
+import { leastRanks, passSpacing } from "./density";
 import { makePathVertices, maxClasses, PathClass } from "./path_vertices";
-import { type Picked, pickedMove, pickedSurface } from "./picked";
-import { ProgramText } from "./program_text";
+import { passName, type Picked, pickedMove, pickedSurface } from "./picked";
+import type { ProgramText } from "./program_text";
 import type { Point3, Scene } from "./scene";
 import { type Axis, isKept, SectionFrame, type SectionPlane, setPlane } from "./section_plane";
 import { type Shading, type ShadingId, shadingsOf } from "./shading";
@@ -64,6 +65,10 @@ export class Viewer {
   #coarse = 1.5; // px: how far thinned paths may be off while the camera moves
   #restTimer = 0;
   #tip = [0, 0, 0];
+  #colors: { color: string; isShown: boolean }[] = [];
+  #drawnLeast = ""; // the ranks that the colours of the path were last set for
+  #spacing: Float64Array = new Float64Array(maxClasses).fill(Infinity);
+  isEveryPassDrawn = false;
   frames = 0;
 
   constructor(canvas: HTMLCanvasElement, scene: Scene, theme: ThemeName) {
@@ -72,7 +77,7 @@ export class Viewer {
     const { header, mesh, path } = scene;
     this.#renderer = makeRenderer(canvas);
     this.shadings = shadingsOf(scene);
-    this.program = scene.program === null ? null : new ProgramText(scene.program);
+    this.program = scene.program;
     this.timeline = path === null ? null : new Timeline(path);
     [this.min, this.max] = boundsOf(scene);
     const size = new Vector3(...this.max).distanceTo(new Vector3(...this.min));
@@ -87,6 +92,7 @@ export class Viewer {
       const vertices = makePathVertices(this.timeline!, Math.max(header.tolerance / 2, boxSize / 20000));
       this.#atTip = new PathDrawing(path, vertices, boxSize, 2 * header.tolerance, this.#shared);
       this.#drawing = this.#atTip;
+      this.#spacing = passSpacing(vertices, mesh);
       this.#tool = new ToolView(header.tool, this.#shared);
       this.#three.add(this.#atTip.object, this.#tool.object);
       const used = new Uint8Array(maxClasses);
@@ -94,7 +100,7 @@ export class Viewer {
       for (let c = maxClasses - 1; c >= 0; c--) {
         if (used[c] === 0) continue;
         const pass = header.passes[c - PathClass.firstPass];
-        const name = c < PathClass.firstPass ? pathClassNames[c]! : `${(pass ?? "other").replace(/^./, (s) => s.toUpperCase())} passes`;
+        const name = c < PathClass.firstPass ? pathClassNames[c]! : `${passName(pass ?? "other").replace(/^./, (s) => s.toUpperCase())} passes`;
         this.#layers.push({ id: `path ${c}`, name, color: "", isShown: true });
       }
       this.#layers.push({ id: "arrows", name: "Starts and directions", color: null, isShown: true });
@@ -224,17 +230,64 @@ export class Viewer {
     return new Vector3(...max).distanceTo(new Vector3(...min)) || 1;
   }
 
+  // The pass that is cut now is always drawn, so the times between which it runs are found.
+  #currentPass(): [number, number] {
+    const pass = this.scene.path?.pass;
+    const { timeline, place } = this;
+    if (!pass || timeline === null || pass[place.move]! < 0) return [1, 0];
+    let first = place.move;
+    let last = place.move;
+    while (first > 0 && pass[first - 1] === pass[place.move]) first--;
+    while (last + 1 < pass.length && pass[last + 1] === pass[place.move]) last++;
+    // Times of vertices are those of Float32.
+    return [Math.fround(timeline.timeOf({ move: first, share: 0 })) * (1 - 1e-7), Math.fround(timeline.end[last]!)];
+  }
+
+  // How dense passes are drawn: the least rank of each class.
+  get #leastRanks(): Uint8Array {
+    if (this.isEveryPassDrawn) return new Uint8Array(maxClasses);
+    return leastRanks(this.#spacing, this.camera.height / this.camera.heightPx);
+  }
+
+  setEveryPass(isDrawn: boolean): void {
+    this.isEveryPassDrawn = isDrawn;
+    this.#applyLayers();
+  }
+
+  // Each how many passes of a class are drawn, for those that are shown and thinned.
+  get drawnPasses(): { name: string; step: number }[] {
+    const least = this.#leastRanks;
+    return this.#layers
+      .filter((l) => l.isShown && l.id.startsWith("path ") && Number(l.id.slice(5)) >= PathClass.cut)
+      .map((l) => ({ name: l.name.toLowerCase().replace(/ passes$/, " pass"), step: 2 ** least[Number(l.id.slice(5))]! }))
+      .filter((p) => p.step > 1);
+  }
+
+  #isVertexShown(shown: Uint8Array, least: Uint8Array, pass: [number, number], v: number): boolean {
+    const { vertices, ranks } = this.#drawing!;
+    const c = vertices.class[v]!;
+    const time = vertices.time[v]!;
+    if (shown[c] === 0 || (ranks[v]! < least[c]! && (time < pass[0] || time > pass[1]))) return false;
+    return this.pathPart === "whole" || time <= this.time === (this.pathPart === "done");
+  }
+
+  get #shownClasses(): Uint8Array {
+    const shown = new Uint8Array(maxClasses);
+    for (const l of this.#layers) if (l.id.startsWith("path ") && l.isShown) shown[Number(l.id.slice(5))] = 1;
+    return shown;
+  }
+
   #applyLayers(): void {
-    const colors = Array.from({ length: maxClasses }, () => ({ color: "#000000", isShown: false }));
+    this.#colors = Array.from({ length: maxClasses }, () => ({ color: "#000000", isShown: false }));
     for (const layer of this.#layers) {
       if (!layer.id.startsWith("path ")) continue;
       const index = Number(layer.id.slice(5));
       layer.color = classColor(index, this.scene.header.passes, this.theme);
-      colors[index] = { color: layer.color, isShown: layer.isShown };
+      this.#colors[index] = { color: layer.color, isShown: layer.isShown };
     }
     if (this.#drawing !== null) {
       const { view, arrows } = this.#drawing;
-      view.setColors(colors);
+      this.#drawnLeast = "";
       view.material.uniforms.shown!.value = [this.pathPart === "coming" ? 0 : 1, this.pathPart === "done" ? 0 : 1];
       view.material.uniforms.isCut!.value = this.section.cutsPath ? 1 : 0;
       view.material.uniforms.now!.value = this.time;
@@ -321,6 +374,7 @@ export class Viewer {
     Object.assign(this.section, change);
     setPlane(this.section, this.#shared.plane.value);
     this.#frame.place(this.section, this.min, this.max);
+    this.#meshView?.setCut(this.section.axis !== null);
     if (this.#drawing !== null) this.#drawing.view.material.uniforms.isCut!.value = this.section.cutsPath ? 1 : 0;
     this.#tell("section");
     this.invalidate();
@@ -353,10 +407,9 @@ export class Viewer {
       surface = this.#meshPicker.pick(ray, (point) => isKept(plane, point));
     }
     if (path !== null && this.#drawing !== null) {
-      const shown = new Uint8Array(maxClasses);
-      for (const l of this.#layers) if (l.id.startsWith("path ") && l.isShown) shown[Number(l.id.slice(5))] = 1;
-      const { time: times, class: classes } = this.#drawing.vertices;
-      const now = this.time;
+      const shown = this.#shownClasses;
+      const least = this.#leastRanks;
+      const pass = this.#currentPass();
       // Along a ray of the perspective view the depth is less than the distance.
       const cos = this.camera.isOrthographic ? 1 : -this.camera.back.dot(new Vector3(...(ray.direction as Point3)));
       const pixelAt = (distance: number): number => this.camera.pixelAtDepth(distance * cos);
@@ -366,8 +419,7 @@ export class Viewer {
         pixels,
         pixelAt,
         (vertex, point) =>
-          shown[classes[vertex]!] === 1 &&
-          (this.pathPart === "whole" || times[vertex]! <= now === (this.pathPart === "done")) &&
+          this.#isVertexShown(shown, least, pass, vertex) &&
           (!this.section.cutsPath || isKept(plane, point)),
         limit,
       );
@@ -408,16 +460,22 @@ export class Viewer {
     this.#shared.isOrthographic.value = camera.isOrthographic ? 1 : 0;
     this.#shared.pixel.value = camera.isOrthographic ? camera.height / camera.heightPx : camera.height / camera.heightPx / camera.distance;
     const isMoving = this.isMoving;
-    this.#drawing?.view.choose(camera, isMoving ? this.#coarse : 0.6);
+    const least = this.#leastRanks;
+    const pass = this.#currentPass();
+    if (this.#drawing !== null) {
+      const { view } = this.#drawing;
+      if (least.join() !== this.#drawnLeast) view.setColors(this.#colors, least);
+      this.#drawnLeast = least.join();
+      view.material.uniforms.pass!.value = pass;
+      view.choose(camera, isMoving ? this.#coarse : 0.6, least, pass);
+    }
     if (this.#drawing !== null && this.isShown("arrows")) {
-      const { class: classes, time, position } = this.#drawing.vertices;
-      const shown = new Set(this.#layers.filter((l) => l.isShown).map((l) => l.id));
-      const now = this.time;
+      const { position } = this.#drawing.vertices;
+      const shown = this.#shownClasses;
       this.#drawing.arrows.place(
         camera,
         (v) =>
-          shown.has(`path ${classes[v]}`) &&
-          (this.pathPart === "whole" || time[v]! <= now === (this.pathPart === "done")) &&
+          this.#isVertexShown(shown, least, pass, v) &&
           isKept(this.#shared.plane.value, position.subarray(3 * v, 3 * v + 3)),
       );
     }
