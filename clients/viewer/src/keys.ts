@@ -41,7 +41,7 @@ export function followKeys(keys: Key[]): void {
   const byKey = new Map(keys.flatMap((k) => k.keys.map((name) => [name, k] as const)));
   document.addEventListener("keydown", (event) => {
     if (event.ctrlKey || event.metaKey || event.altKey || event.defaultPrevented) return;
-    if (belongsTo(event.target as HTMLElement, event.key)) return;
+    if (event.target instanceof HTMLElement && belongsTo(event.target, event.key)) return;
     const key = byKey.get(event.key.length === 1 ? event.key.toLowerCase() : event.key);
     if (key === undefined) return;
     event.preventDefault();

@@ -42,7 +42,7 @@ export function thin(position: Float32Array, classes: Uint8Array, stays: Uint8Ar
   const levels: Level[] = [];
   for (const tolerance of tolerances) {
     const shortest = tolerance * tolerance;
-    for (let sweep = 0; sweep < 8; sweep++) {
+    for (let sweep = 0; sweep < 24; sweep++) {
       const next: Uint32Array<ArrayBuffer> = new Uint32Array(count);
       const nextError = new Float32Array(count);
       let to = 1;
