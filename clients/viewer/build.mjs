@@ -19,7 +19,7 @@ export async function buildPage() {
     charset: "ascii",
     legalComments: "none",
     absWorkingDir: here("."),
-    banner: { js: "/* Patchmill viewer, Apache-2.0. With three.js, MIT, (c) 2010-2025 three.js authors. */" },
+    banner: { js: `/* Patchmill viewer: Apache-2.0. three.js, which it contains:\n\n${await readFile(here("node_modules/three/LICENSE"), "utf8")}*/` },
   });
   // A script element ends at its end tag, wherever that stands.
   const script = bundle.outputFiles[0].text.replace(/<\/(script)/gi, "<\\/$1").replace(/<!--/g, "<\\!--");

@@ -5,32 +5,57 @@ import { Kind, type Mesh, type Path } from "./scene";
 const room = 3; // px between passes
 export const always = 255;
 
+export interface Ranks {
+  ranks: Uint8Array; // of each vertex
+  counts: Uint32Array; // passes, or turns of passes, of each class
+  hasTurns: boolean; // long passes are counted by their turns
+}
+
+const longPass = 20000; // vertices: passes that are longer on the average are spirals
+
 // The rank of each vertex: passes with rank k or more are each 2^k-th one. Leads and links have the rank of the pass that
-// they lead to, all other moves are always drawn.
-export function passRanks(path: Path, vertices: PathVertices): Uint8Array {
-  const ranks = new Uint8Array(vertices.class.length).fill(always);
-  if (path.pass === null) return ranks;
-  const seen = new Uint32Array(maxClasses); // passes of each class
+// they lead to, all other moves are always drawn. A spiral is a single pass, so each full turn of it counts as one.
+export function passRanks(path: Path, vertices: PathVertices): Ranks {
+  const { position } = vertices;
+  const count = vertices.class.length;
+  const ranks = new Uint8Array(count).fill(always);
+  const counts = new Uint32Array(maxClasses);
+  if (path.pass === null) return { ranks, counts, hasTurns: false };
+  const moveOf = (v: number): number => (vertices.move === null ? v : vertices.move[v]!);
+  let passes = 0;
+  for (let m = 1; m < path.pass.length; m++) if (path.pass[m]! >= 0 && path.pass[m] !== path.pass[m - 1]) passes++;
+  const hasTurns = passes * longPass < count;
   let rank = always;
   let last = -1;
-  const moveOf = (v: number): number => (vertices.move === null ? v : vertices.move[v]!);
   let firstOfRun = 1;
-  for (let v = 1; v < ranks.length; v++) {
+  let turned = 0; // since the pass or its last turn began
+  let headingX = 0;
+  let headingY = 0;
+  for (let v = 1; v < count; v++) {
     const move = moveOf(v);
+    if (path.kind[move] !== Kind.cut) continue;
     const c = vertices.class[v]!;
-    if (path.kind[move] === Kind.cut) {
-      const pass = path.pass[move]!;
-      if (pass !== last) {
-        const n = seen[c]!++;
-        rank = n === 0 ? always - 1 : Math.clz32(n & -n) ^ 31;
-        last = pass;
-        for (let w = firstOfRun; w < v; w++) if (isJoint(vertices.class[w]!)) ranks[w] = rank;
+    const pass = path.pass[move]!;
+    if (hasTurns) {
+      const x = position[3 * v]! - position[3 * v - 3]!;
+      const y = position[3 * v + 1]! - position[3 * v - 2]!;
+      if (x !== 0 || y !== 0) {
+        turned += Math.atan2(headingX * y - headingY * x, headingX * x + headingY * y);
+        headingX = x;
+        headingY = y;
       }
-      ranks[v] = rank;
-      firstOfRun = v + 1;
     }
+    if (pass !== last || Math.abs(turned) >= 2 * Math.PI) {
+      const n = counts[c]!++;
+      rank = n === 0 ? always - 1 : Math.clz32(n & -n) ^ 31;
+      last = pass;
+      turned = 0;
+      for (let w = firstOfRun; w < v; w++) if (isJoint(vertices.class[w]!)) ranks[w] = rank;
+    }
+    ranks[v] = rank;
+    firstOfRun = v + 1;
   }
-  return ranks;
+  return { ranks, counts, hasTurns };
 }
 
 const isJoint = (c: number): boolean => c === PathClass.lead || c === PathClass.link;
@@ -54,6 +79,25 @@ export function passSpacing(vertices: PathVertices, mesh: Mesh | null): Float64A
   for (let v = 1; v < vertices.class.length; v++) length[vertices.class[v]!]! += segmentLength(vertices.position, v);
   const area = mesh === null ? Infinity : meshArea(mesh);
   return length.map((l, c) => (c >= PathClass.cut && l > 0 ? area / l : Infinity));
+}
+
+// The times between which the pass (or the turn of it) runs that is cut at `now`; an empty span if none is.
+export function currentSpan(vertices: PathVertices, ranks: Uint8Array, now: number): [number, number] {
+  const { time } = vertices;
+  let low = 0;
+  let high = time.length - 1;
+  while (low < high) {
+    const middle = (low + high) >> 1;
+    if (time[middle]! >= now) high = middle;
+    else low = middle + 1;
+  }
+  const rank = ranks[low]!;
+  if (low === 0 || rank === always) return [1, 0];
+  let first = low;
+  let last = low;
+  while (first > 1 && ranks[first - 1] === rank) first--;
+  while (last + 1 < time.length && ranks[last + 1] === rank) last++;
+  return [time[first - 1]!, time[last]!];
 }
 
 // The least rank that is drawn of each class, for pixels of a size (mm).

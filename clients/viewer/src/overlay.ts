@@ -94,7 +94,7 @@ export class Overlay {
     const size = length / pixel;
     const [right, y] = [camera.width - 16, camera.heightPx - 20];
     const thinned = this.#viewer.drawnPasses.map(({ name, step }, i) =>
-      shape("text", { x: right, y: y - 28 - 16 * i, "text-anchor": "end" }, `drawn: every ${step}${step % 10 === 2 && step !== 12 ? "nd" : "th"} ${name}`),
+      shape("text", { x: right, y: y - 28 - 16 * i, "text-anchor": "end" }, `drawn: every ${step}${step % 10 === 2 ? "nd" : "th"} ${name}`),
     );
     const note = camera.isOrthographic ? "" : " at the centre";
     return [

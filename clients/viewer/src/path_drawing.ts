@@ -1,7 +1,7 @@
 // A path as it is drawn: its lines, the signs on it and the search for a move under a pixel.
 import { Group } from "three";
 import { Arrows } from "./arrows";
-import { passRanks } from "./density";
+import { passRanks, type Ranks } from "./density";
 import { PathPicker } from "./path_pick";
 import type { PathVertices } from "./path_vertices";
 import { PathView } from "./path_view";
@@ -12,7 +12,7 @@ export class PathDrawing {
   readonly vertices: PathVertices;
   readonly view: PathView;
   readonly arrows: Arrows;
-  readonly ranks: Uint8Array;
+  readonly ranks: Ranks;
   readonly object = new Group();
   #picker: PathPicker | null = null;
 
@@ -20,7 +20,7 @@ export class PathDrawing {
   constructor(path: Path, vertices: PathVertices, size: number, lift: number, shared: SharedUniforms) {
     this.vertices = vertices;
     this.ranks = passRanks(path, vertices);
-    this.view = new PathView(vertices, this.ranks, size, lift, shared);
+    this.view = new PathView(vertices, this.ranks.ranks, size, lift, shared);
     this.arrows = new Arrows(path, vertices, size, shared);
     this.object.add(this.view.object, this.arrows.object);
   }

@@ -154,7 +154,7 @@ function readMesh(buffers: Buffers, header: Header, ids: Set<number>): Mesh | nu
   needFinite(mesh.gouge, "mesh.gouge");
   needKnown(mesh.region, "mesh.region", ids);
   needBetween(mesh.surface, "mesh.surface", 0, header.surfaces.length - 1);
-  return mesh;
+  return triangles === 0 ? null : mesh;
 }
 
 function readArcs(buffers: Buffers, moves: number): Arcs | null {

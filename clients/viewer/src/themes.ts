@@ -48,7 +48,7 @@ export function passColor(name: string, index: number, theme: ThemeName): string
   return pair[theme === "light" ? 0 : 1];
 }
 
-export const pathClassNames = ["Rapids", "Approach, plunge, retract", "Leads", "Links", "Passes"];
+export const pathClassNames = ["Rapids", "Approach and retract", "Leads", "Links", "Passes"];
 
 export function classColor(index: number, passes: string[], theme: ThemeName): string {
   if (index < PathClass.firstPass) return themes[theme].paths[index]!;

@@ -5,7 +5,7 @@ import { contactVertices } from "./contact";
 import { MeshPicker } from "./mesh_pick";
 import { MeshView } from "./mesh_view";
 import { PathDrawing } from "./path_drawing";
-import { leastRanks, passSpacing } from "./density";
+import { currentSpan, leastRanks, passSpacing } from "./density";
 import { makePathVertices, maxClasses, PathClass } from "./path_vertices";
 import { passName, type Picked, pickedMove, pickedSurface } from "./picked";
 import type { ProgramText } from "./program_text";
@@ -230,17 +230,9 @@ export class Viewer {
     return new Vector3(...max).distanceTo(new Vector3(...min)) || 1;
   }
 
-  // The pass that is cut now is always drawn, so the times between which it runs are found.
+  // The pass that is cut now is always drawn.
   #currentPass(): [number, number] {
-    const pass = this.scene.path?.pass;
-    const { timeline, place } = this;
-    if (!pass || timeline === null || pass[place.move]! < 0) return [1, 0];
-    let first = place.move;
-    let last = place.move;
-    while (first > 0 && pass[first - 1] === pass[place.move]) first--;
-    while (last + 1 < pass.length && pass[last + 1] === pass[place.move]) last++;
-    // Times of vertices are those of Float32.
-    return [Math.fround(timeline.timeOf({ move: first, share: 0 })) * (1 - 1e-7), Math.fround(timeline.end[last]!)];
+    return this.#drawing === null ? [1, 0] : currentSpan(this.#drawing.vertices, this.#drawing.ranks.ranks, Math.fround(this.time));
   }
 
   // How dense passes are drawn: the least rank of each class.
@@ -254,20 +246,25 @@ export class Viewer {
     this.#applyLayers();
   }
 
-  // Each how many passes of a class are drawn, for those that are shown and thinned.
+  // Each how many passes (or turns) of a class are drawn, for those that are shown and thinned.
   get drawnPasses(): { name: string; step: number }[] {
     const least = this.#leastRanks;
+    const { counts, hasTurns } = this.#drawing?.ranks ?? { counts: new Uint32Array(maxClasses), hasTurns: false };
     return this.#layers
-      .filter((l) => l.isShown && l.id.startsWith("path ") && Number(l.id.slice(5)) >= PathClass.cut)
-      .map((l) => ({ name: l.name.toLowerCase().replace(/ passes$/, " pass"), step: 2 ** least[Number(l.id.slice(5))]! }))
-      .filter((p) => p.step > 1);
+      .filter((l) => l.isShown && l.id.startsWith("path "))
+      .map((l) => ({ layer: l, index: Number(l.id.slice(5)) }))
+      .filter(({ index }) => index >= PathClass.cut && counts[index]! > 1 && least[index]! > 0)
+      .map(({ layer, index }) => ({
+        name: layer.name.toLowerCase().replace(/passes$/, hasTurns ? "turn" : "pass"),
+        step: 2 ** least[index]!,
+      }));
   }
 
   #isVertexShown(shown: Uint8Array, least: Uint8Array, pass: [number, number], v: number): boolean {
     const { vertices, ranks } = this.#drawing!;
     const c = vertices.class[v]!;
     const time = vertices.time[v]!;
-    if (shown[c] === 0 || (ranks[v]! < least[c]! && (time < pass[0] || time > pass[1]))) return false;
+    if (shown[c] === 0 || (ranks.ranks[v]! < least[c]! && (time < pass[0] || time > pass[1]))) return false;
     return this.pathPart === "whole" || time <= this.time === (this.pathPart === "done");
   }
 

@@ -82,6 +82,8 @@ test("each shading has its legend", async () => {
     leftover: /in mm.*0\.03.*scallop \+ tolerance/s, gouge: /in mm.*0\.01.*tolerance/s, unreachable: /CONCAVE.*reachable/s, plain: /surface/,
   };
   const seen = new Set();
+  // Without the passes the pixel is one of the surface.
+  for (const layer of ["path 5", "arrows", "borders"]) await page.uncheck(`[data-layer="${layer}"]`);
   for (const [id, legend] of Object.entries(wanted)) {
     await page.selectOption("#shading", id);
     assert.equal((await state()).shading, id);
@@ -91,6 +93,7 @@ test("each shading has its legend", async () => {
   }
   assert.ok(seen.size >= 4, `${seen.size} colours`);
   await page.selectOption("#shading", "region");
+  for (const layer of ["path 5", "arrows", "borders"]) await page.check(`[data-layer="${layer}"]`);
 });
 
 test("layers are switched on and off", async () => {
@@ -488,6 +491,17 @@ test("damaged scenes give a message, not an empty page", async () => {
   await empty.waitForSelector("#error:visible");
   assert.match(await empty.textContent("#error"), /template/);
   await empty.close();
+});
+
+test("a browser without WebGL gets a message", async () => {
+  const opened = await browser.newPage();
+  await opened.addInitScript(() => {
+    HTMLCanvasElement.prototype.getContext = () => null;
+  });
+  await opened.goto(pathToFileURL(join(folder, "plate.html")).href);
+  await opened.waitForSelector("#error:visible");
+  assert.match(await opened.textContent("#error"), /WebGL 2/);
+  await opened.close();
 });
 
 test("a scene without a path, and one without a surface, are shown", async () => {

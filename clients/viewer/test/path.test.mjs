@@ -5,7 +5,7 @@ import { load, randomFrom } from "./load.mjs";
 
 const {
   arcPoint, arcChords, Timeline, makePathVertices, thin, PathPicker, MeshPicker, valueAt, nearestOnTriangle, NearestPoint,
-  contactVertices, passRanks, leastRanks, chunkStarts, distanceOf, clockText, usualSpeed, toolProfiles, roundUp, formatNumber,
+  contactVertices, passRanks, currentSpan, leastRanks, chunkStarts, distanceOf, clockText, usualSpeed, toolProfiles, roundUp, formatNumber,
   Camera, splitByRegion, meshNormals, PathClass,
 } = await load(
   "arc", "timeline", "path_vertices", "thin", "path_pick", "mesh_pick", "contact", "density", "path_view", "measure", "player",
@@ -228,7 +228,13 @@ test("ranks of passes halve, and leads go with their pass", () => {
     pass.push(p, p, p);
   }
   const path = pathOf(kind.map((_, i) => [i, 0, 0]), { kind: Uint8Array.from(kind), pass: Int32Array.from(pass) });
-  const ranks = passRanks(path, makePathVertices(new Timeline(path), 0.01));
+  const vertices = makePathVertices(new Timeline(path), 0.01);
+  const { ranks, counts } = passRanks(path, vertices);
+  assert.equal(counts[PathClass.cut], 16);
+  // Pass 5 has the moves 16 to 18; its lead is one of them.
+  const ends = vertices.time;
+  assert.deepEqual(currentSpan(vertices, ranks, ends[17]), [ends[15], ends[18]]);
+  assert.deepEqual(currentSpan(vertices, ranks, 0), [1, 0]);
   for (const k of [0, 1, 2, 3]) {
     const drawn = new Set([...ranks.keys()].filter((v) => v > 0 && ranks[v] >= k).map((v) => pass[v]));
     assert.equal(drawn.size, 16 / 2 ** k);
@@ -239,6 +245,21 @@ test("ranks of passes halve, and leads go with their pass", () => {
   // Passes at 0.1 mm: at 0.2 mm to the pixel each eighth one is 4 pixels from the next.
   assert.equal(leastRanks(spacing, 0.2)[PathClass.firstPass], 3);
   assert.equal(leastRanks(spacing, 0.03)[PathClass.firstPass], 0);
+});
+
+test("a long spiral is counted by its turns", () => {
+  const steps = 1000; // of a turn
+  const tips = Array.from({ length: 30 * steps + 1 }, (_, i) => {
+    const angle = (2 * Math.PI * i) / steps;
+    return [(10 + i / steps) * Math.cos(angle), (10 + i / steps) * Math.sin(angle), 0];
+  });
+  const path = pathOf(tips, { pass: new Int32Array(tips.length) });
+  const { ranks, counts, hasTurns } = passRanks(path, makePathVertices(new Timeline(path), 0.01));
+  assert.ok(hasTurns);
+  near(counts[PathClass.cut], 30, 1);
+  // Each other turn has rank 0.
+  const drawn = [...ranks.subarray(1)].filter((r) => r > 0).length;
+  near(drawn / (30 * steps), 0.5, 0.05);
 });
 
 test("chunks cover the path without gaps", () => {
