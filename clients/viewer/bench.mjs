@@ -32,9 +32,9 @@ try {
       const times = [];
       let last = performance.now();
       for (let i = 0; i < n; i++) {
+        view.orbit(3, 0); // the picture is drawn in the next animation frame
         await new Promise(requestAnimationFrame);
-        view.orbit(3, 0);
-        view.pixel(0, 0); // draws, and waits until the picture is there
+        view.wait();
         const now = performance.now();
         times.push(now - last);
         last = now;
@@ -42,8 +42,10 @@ try {
       return times;
     }, count);
   await turn(5);
+  const { frames: before } = await page.evaluate(() => window.patchmillView.state());
   const times = (await turn(frames)).sort((a, b) => a - b);
   const state = await page.evaluate(() => window.patchmillView.state());
+  console.log(`pictures drawn      ${state.frames - before} in ${frames} steps`);
   console.log(`segments            ${state.levelSizes[0]}`);
   console.log(`drawn while turning ${state.drawnSegments}`);
   console.log(`loaded in           ${load.toFixed(2)} s`);

@@ -1,5 +1,5 @@
 // Shows where passes start and which way they run, by signs of constant size in the picture.
-import { BufferAttribute, BufferGeometry, DynamicDrawUsage, GLSL3, Mesh, RawShaderMaterial } from "three";
+import { BufferAttribute, BufferGeometry, DynamicDrawUsage, GLSL3, Mesh, RawShaderMaterial, Sphere } from "three";
 import type { Camera } from "./camera";
 import { type PathVertices, segmentLength } from "./path_vertices";
 import { Kind, type Path } from "./scene";
@@ -91,6 +91,7 @@ export class Arrows {
     this.#vertices = vertices;
     this.#signs = passSigns(path, vertices, size);
     const geometry = new BufferGeometry();
+    geometry.boundingSphere = new Sphere(); // of no use: the signs move
     const attribute = (array: Float32Array, width: number): BufferAttribute => {
       const a = new BufferAttribute(array, width);
       a.setUsage(DynamicDrawUsage);

@@ -61,6 +61,7 @@ export function chooseAxis(viewer: Viewer, axis: Axis | null): void {
   }
   const [low, high] = viewer.sectionRange(axis);
   viewer.setSection({ axis, position: (low + high) / 2 });
+  byId("section-controls").scrollIntoView({ block: "nearest" });
 }
 
 export function makeSection(viewer: Viewer): void {

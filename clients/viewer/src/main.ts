@@ -27,6 +27,7 @@ export interface PatchmillView {
   project: (point: [number, number, number]) => { x: number; y: number; depth: number };
   orbit: (yaw: number, pitch: number) => void; // degrees
   pixel: (x: number, y: number) => number[]; // draws, waits, and reads one pixel: red, green, blue, alpha
+  wait: () => void; // in an animation frame: until the picture of this frame is drawn
 }
 
 function makeView(start: Promise<Page>): PatchmillView {
@@ -76,6 +77,7 @@ function makeView(start: Promise<Page>): PatchmillView {
       need().viewer.viewChanged();
     },
     pixel: (x, y) => need().viewer.readPixel(x, y),
+    wait: () => void need().viewer.waitForPixel(0, 0),
   };
 }
 

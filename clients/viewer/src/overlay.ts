@@ -20,6 +20,7 @@ export class Overlay {
   readonly #measure: Measure;
   focus: { point: number[]; text: string } | null = null; // a place that a finding names
   isCrossShown = false;
+  hint = ""; // what to do next
   #isQueued = false;
 
   constructor(viewer: Viewer, svg: SVGSVGElement, measure: Measure) {
@@ -51,6 +52,7 @@ export class Overlay {
         this.#label(x, y - 18, this.focus.text),
       );
     }
+    if (this.hint !== "") shapes.push(this.#label(camera.width / 2, 24, this.hint));
     if (this.isCrossShown) {
       const [x, y] = [camera.width / 2, camera.heightPx / 2];
       shapes.push(shape("path", { d: `M${px(x - 9)} ${px(y)}h6m6 0h6M${px(x)} ${px(y - 9)}v6m0 6v6`, class: "thin" }));

@@ -50,6 +50,7 @@ export function showPage(scene: Scene): Page {
     press(byId("measure"), isMeasuring);
     canvas.classList.toggle("picking", isMeasuring);
     const hints = ["Pick the first point.", "Pick the second point.", "Pick again to begin anew."];
+    overlay.hint = isMeasuring && measure.points.length < 2 ? hints[measure.points.length]! : "";
     byId("measure-hint").textContent = isMeasuring ? hints[measure.points.length]! : "Press Measure, then pick two points.";
     byId("measure-values").replaceChildren(...measure.rows.flatMap(([n, v]) => [make("dt", "", n), make("dd", "", v)]));
     byId("measure-clear").hidden = measure.points.length === 0;
@@ -58,6 +59,7 @@ export function showPage(scene: Scene): Page {
   const setMeasuring = (on: boolean): void => {
     isMeasuring = on;
     fillMeasure();
+    if (on) byId("measure-hint").scrollIntoView({ block: "nearest" });
   };
   const clearMeasure = (): void => {
     measure.clear();

@@ -1,5 +1,5 @@
 // Draws the path: chunks of one polyline, each thinned to what can be seen.
-import { BufferAttribute, BufferGeometry, DataTexture, GLSL3, Group, Line, NearestFilter, RawShaderMaterial, RGBAFormat } from "three";
+import { BufferAttribute, BufferGeometry, DataTexture, GLSL3, Group, Line, NearestFilter, RawShaderMaterial, RGBAFormat, Sphere } from "three";
 import { boxOfPoints } from "./box_tree";
 import type { Camera } from "./camera";
 import { maxClasses, type PathVertices } from "./path_vertices";
@@ -146,6 +146,8 @@ export class PathView {
   #add(attributes: Record<string, BufferAttribute>, kept: Uint32Array | null, tolerance: number, count: number): void {
     const geometry = new BufferGeometry();
     for (const [name, attribute] of Object.entries(attributes)) geometry.setAttribute(name, attribute);
+    // Nothing uses the sphere, and three.js would go through all vertices for each level.
+    geometry.boundingSphere = new Sphere();
     if (kept !== null) geometry.setIndex(new BufferAttribute(kept, 1));
     const start = new Uint32Array(this.#chunks + 1);
     for (let c = 1, i = 0; c < this.#chunks; c++) {

@@ -493,9 +493,14 @@ export class Viewer {
     return this.#drawing?.view.levelSizes ?? [];
   }
 
-  // Waits until the picture is drawn, and gives a pixel of it.
+  // Draws, and gives a pixel of the picture.
   readPixel(x: number, y: number): number[] {
     this.render();
+    return this.waitForPixel(x, y);
+  }
+
+  // Waits until the picture of this frame is drawn, and gives a pixel of it.
+  waitForPixel(x: number, y: number): number[] {
     const gl = this.#renderer.getContext();
     const out = new Uint8Array(4);
     const ratio = this.#renderer.getPixelRatio();
