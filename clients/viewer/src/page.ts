@@ -73,7 +73,8 @@ export function showPage(scene: Scene): Page {
     hover.show(picked, x, y);
     if (picked === null) return;
     if (isMeasuring) {
-      measure.add(picked.point);
+      // The part is measured rather than the path over it.
+      measure.add(picked.kind === "move" && picked.behind !== null ? picked.behind.point : picked.point);
       fillMeasure();
     } else if (picked.kind === "move") {
       playback.stop();

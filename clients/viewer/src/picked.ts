@@ -27,6 +27,7 @@ export interface PickedMove {
   feed: number | null; // mm/min, 0: rapid
   line: number; // 0: none
   text: string;
+  behind: PickedSurface | null; // the surface under the same pixel
 }
 
 export type Picked = PickedSurface | PickedMove;
@@ -71,6 +72,7 @@ export function pickedMove(scene: Scene, hit: Pick<PathHit, "move" | "share" | "
     feed: path.feed?.[move] ?? null,
     line,
     text: line > 0 && program !== null ? program.line(line) : "",
+    behind: null,
   };
 }
 
@@ -89,20 +91,21 @@ export function rowsOf(picked: Picked): [string, string][] {
     if (value !== null && value !== "") rows.push([name, value]);
   };
   add("X Y Z", picked.point.map((v) => mm(v)).join("  "));
-  if (picked.kind === "surface") {
-    add("Surface", picked.surface);
-    add("Region", picked.region);
-    add("Unreachable", picked.unreachable);
-    add("Leftover", picked.leftover === null ? null : `${mm(picked.leftover, 4)} mm`);
-    add("Gouge", picked.gouge === null ? null : `${mm(picked.gouge, 4)} mm`);
-    add("Slope", picked.slope === null ? null : `${mm(picked.slope, 1)}\u00b0`);
-    add("Contour curv.", picked.curvature === null ? null : `${mm(picked.curvature, 4)} 1/mm`);
-  } else {
+  if (picked.kind === "move") {
     add("Move", picked.pass === null ? picked.moveKind : `${picked.moveKind}, ${picked.pass} pass`);
     add("Region", picked.region);
     add("Feed", picked.feed === null ? null : picked.feed === 0 ? "rapid" : `${Math.round(picked.feed)} mm/min`);
     add("Line", picked.line === 0 ? null : String(picked.line));
     add("Block", picked.text);
   }
+  const surface = picked.kind === "surface" ? picked : picked.behind;
+  if (surface === null) return rows;
+  add("Surface", surface.surface);
+  if (picked.kind === "surface") add("Region", surface.region);
+  add("Unreachable", surface.unreachable);
+  add("Leftover", surface.leftover === null ? null : `${mm(surface.leftover, 4)} mm`);
+  add("Gouge", surface.gouge === null ? null : `${mm(surface.gouge, 4)} mm`);
+  add("Slope", surface.slope === null ? null : `${mm(surface.slope, 1)}\u00b0`);
+  add("Contour curv.", surface.curvature === null ? null : `${mm(surface.curvature, 4)} 1/mm`);
   return rows;
 }

@@ -420,7 +420,9 @@ export class Viewer {
           (!this.section.cutsPath || isKept(plane, point)),
         limit,
       );
-      if (hit !== null) return pickedMove(this.scene, hit, this.program);
+      if (hit !== null) {
+        return { ...pickedMove(this.scene, hit, this.program), behind: surface === null ? null : pickedSurface(this.scene, surface) };
+      }
     }
     return surface === null ? null : pickedSurface(this.scene, surface);
   }

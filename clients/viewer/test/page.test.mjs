@@ -224,11 +224,14 @@ test("a click on a path sets the time to it, and its hover tells the move", asyn
   assert.equal(picked.move, move);
   assert.equal(picked.moveKind, "cut");
   assert.equal(picked.pass, "zig-zag");
+  assert.equal(picked.behind.kind, "surface");
   assert.equal(picked.feed, buffers["path.feed"][move]);
   assert.equal(picked.line, buffers["path.line"][move]);
   assert.equal(picked.text, buffers["program.text"].toString().split("\n")[picked.line - 1]);
   const box = await page.locator("#canvas").boundingBox();
   await page.mouse.click(box.x + at.x, box.y + at.y);
+  const hover = await page.textContent("#hover");
+  for (const part of ["cut, zig-zag pass", picked.text, picked.behind.leftover.toFixed(4)]) assert.ok(hover.includes(part), `${hover}: ${part}`);
   const s = await state();
   assert.equal(s.move, move);
   near(s.share, 0.5, 0.05);
@@ -290,8 +293,7 @@ test("two points are measured", async () => {
   const s = await state();
   const [a, b] = s.measured;
   near(s.distance.length, Math.hypot(b[0] - a[0], b[1] - a[1], b[2] - a[2]), 1e-9);
-  near(s.distance.delta[0], 40, 0.6);
-  near(s.distance.delta[1], 30, 0.6);
+  nearAll(s.distance.delta, [40, 30, height(60, 50) - height(20, 20)], 0.25); // a pixel is 0.2 mm
   assert.match(await page.textContent("#measure-values"), new RegExp(`Distance${s.distance.length.toFixed(3)} mm`));
   await page.click("#measure-clear");
   assert.deepEqual((await state()).measured, []);
