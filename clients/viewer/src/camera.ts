@@ -147,22 +147,18 @@ export class Camera {
   fit(min: ArrayLike<number>, max: ArrayLike<number>): void {
     this.target.set((min[0]! + max[0]!) / 2, (min[1]! + max[1]!) / 2, (min[2]! + max[2]!) / 2);
     this.update();
-    let across = 0;
-    let upward = 0;
-    let depth = 0;
+    // A corner that is d nearer than the target is seen as if it were d tan(half the angle) farther from the middle.
+    const slant = this.isOrthographic ? 0 : Math.tan(((fieldOfView / 2) * Math.PI) / 180);
+    let half = 1e-3;
     for (let corner = 0; corner < 8; corner++) {
       const v = new Vector3(
         (corner & 1 ? max : min)[0],
         (corner & 2 ? max : min)[1],
         (corner & 4 ? max : min)[2],
       ).sub(this.target);
-      across = Math.max(across, Math.abs(v.dot(this.right)));
-      upward = Math.max(upward, Math.abs(v.dot(this.up)));
-      depth = Math.max(depth, v.dot(this.back));
+      const across = (Math.abs(v.dot(this.right)) * this.heightPx) / this.width;
+      half = Math.max(half, Math.max(across, Math.abs(v.dot(this.up))) + slant * v.dot(this.back));
     }
-    const height = 2 * Math.max(upward, (across * this.heightPx) / this.width, 1e-3) * 1.12;
-    // The near side is larger in perspective.
-    const nearer = this.isOrthographic ? 0 : 2 * depth * Math.tan(((fieldOfView / 2) * Math.PI) / 180) * 0.8;
-    this.height = height + nearer;
+    this.height = 2 * 1.08 * half;
   }
 }

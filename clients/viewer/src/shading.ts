@@ -164,7 +164,12 @@ function gougeShading(header: Header, mesh: Mesh): Shading {
   };
 }
 
-function regionShading(header: Header): Shading {
+// Triangles without a region are rare, and then the legend does not need them.
+function noRegion(mesh: Mesh): Swatch[] {
+  return mesh.region!.includes(-1) ? [{ color: unknownGrey, text: "no region" }] : [];
+}
+
+function regionShading(header: Header, mesh: Mesh): Shading {
   return {
     id: "region",
     name: "Region",
@@ -173,12 +178,12 @@ function regionShading(header: Header): Shading {
     regionColors: new Map([[-1, unknownGrey], ...header.regions.map((r) => [r.id, r.color] as [number, string])]),
     swatches: [
       ...header.regions.map((r) => ({ color: r.color, text: r.name })),
-      { color: unknownGrey, text: "no region" },
+      ...noRegion(mesh),
     ],
   };
 }
 
-function unreachableShading(header: Header): Shading {
+function unreachableShading(header: Header, mesh: Mesh): Shading {
   const reasons = [...new Set(header.regions.map((r) => r.unreachable).filter((r) => r !== ""))];
   const colorOf = (reason: string): string =>
     reason === "" ? plainGrey : reasonColors[reasons.indexOf(reason) % reasonColors.length]!;
@@ -194,7 +199,7 @@ function unreachableShading(header: Header): Shading {
     swatches: [
       ...reasons.map((reason) => ({ color: colorOf(reason), text: reason })),
       { color: plainGrey, text: "reachable" },
-      { color: unknownGrey, text: "no region" },
+      ...noRegion(mesh),
     ],
   };
 }
@@ -204,12 +209,12 @@ export function shadingsOf(scene: Scene): Shading[] {
   const { header, mesh } = scene;
   if (mesh === null) return [];
   const shadings: Shading[] = [];
-  if (mesh.region !== null) shadings.push(regionShading(header));
+  if (mesh.region !== null) shadings.push(regionShading(header, mesh));
   if (mesh.slope !== null) shadings.push(slopeShading(header, mesh));
   if (mesh.curvature !== null) shadings.push(curvatureShading(mesh));
   if (mesh.leftover !== null) shadings.push(leftoverShading(header, mesh));
   if (mesh.gouge !== null) shadings.push(gougeShading(header, mesh));
-  if (mesh.region !== null) shadings.push(unreachableShading(header));
+  if (mesh.region !== null) shadings.push(unreachableShading(header, mesh));
   shadings.push({
     id: "plain",
     name: "Plain",

@@ -31,6 +31,7 @@ export const themes: Record<ThemeName, Theme> = {
 // Each kind of pass has a colour of its own; kinds that the page does not know take the next ones.
 const knownPasses: Record<string, [string, string]> = {
   zigzag: ["#1f5fbf", "#5b9bff"],
+  "zig-zag": ["#1f5fbf", "#5b9bff"],
   contour: ["#0a6f55", "#34c79c"],
   border: ["#b35309", "#ffa04d"],
   pencil: ["#a5146c", "#ff6fbe"],

@@ -312,6 +312,24 @@ test("a point and the ray through its pixel", () => {
   nearAll(camera.up.toArray(), [0, 1, 0]);
 });
 
+test("fitting shows each corner of a box, and one of them near the edge", () => {
+  const camera = new Camera();
+  Object.assign(camera, { width: 800, heightPx: 600 });
+  for (const isOrthographic of [false, true]) {
+    camera.isOrthographic = isOrthographic;
+    for (const view of ["top", "front", "iso"]) {
+      camera.look(view);
+      camera.fit([0, 0, 0], [90, 50, 30]);
+      let most = 0;
+      for (let c = 0; c < 8; c++) {
+        const { x, y } = camera.project([c & 1 ? 90 : 0, c & 2 ? 50 : 0, c & 4 ? 30 : 0]);
+        most = Math.max(most, Math.abs(x - 400) / 400, Math.abs(y - 300) / 300);
+      }
+      assert.ok(most < 1 && most > 0.85, `${view}: ${most}`);
+    }
+  }
+});
+
 test("zooming keeps what is under the pixel", () => {
   const camera = new Camera();
   Object.assign(camera, { width: 800, heightPx: 600, height: 50, isOrthographic: true });
