@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <limits>
 #include <map>
 #include <numbers>
@@ -14,6 +15,8 @@
 #include <absl/strings/escaping.h>
 #include <absl/strings/str_replace.h>
 #include <fmt/format.h>
+#include <google/protobuf/io/gzip_stream.h>
+#include <google/protobuf/io/zero_copy_stream_impl_lite.h>
 #include <google/protobuf/struct.pb.h>
 
 #include "clients/cli/scene_buffers.h"
@@ -95,8 +98,8 @@ void AddRegions(const v1::RegionMap& map, Struct& header) {
       name += fmt::format("{}: {:.1f} mm2, {:.2f} mm stays", Short(region.unreachable_reason()),
                           region.area_mm2(), region.deepest_leftover_mm());
     } else {
-      name +=
-          fmt::format("{}, {}: {:.1f} mm2", Short(region.kind()), Short(region.slope()), region.area_mm2());
+      name += fmt::format("{}, {}: {:.1f} mm2", absl::AsciiStrToLower(Short(region.kind())),
+                          absl::AsciiStrToLower(Short(region.slope())), region.area_mm2());
     }
     Set(item, "name", name);
     Set(item, "color", ColorOf(region));
@@ -404,6 +407,25 @@ void AddReport(const v1::Report& report, Struct& header) {
   }
 }
 
+// Browsers inflate data faster than they read it as text. The fastest level leaves 40 %, the best one 38 %.
+std::string Gzip(const std::string& bytes) {
+  std::string packed;
+  google::protobuf::io::StringOutputStream stream(&packed);
+  google::protobuf::io::GzipOutputStream::Options options;
+  options.compression_level = 1;
+  google::protobuf::io::GzipOutputStream gzip(&stream, options);
+  for (std::size_t at = 0; at < bytes.size();) {
+    void* room = nullptr;
+    int size = 0;
+    if (!gzip.Next(&room, &size)) return {};
+    const std::size_t taken = std::min(bytes.size() - at, static_cast<std::size_t>(size));
+    std::memcpy(room, bytes.data() + at, taken);
+    gzip.BackUp(size - static_cast<int>(taken));
+    at += taken;
+  }
+  return gzip.Close() ? packed : std::string();
+}
+
 }  // namespace
 
 absl::Status CheckPage() {
@@ -421,6 +443,7 @@ absl::StatusOr<std::string> MakePage(const Scene& scene) {
   Set(header, "version", 1.0);
   Set(header, "title", scene.title);
   Set(header, "made_by", "patchmill " PATCHMILL_VERSION);
+  Set(header, "data_encoding", "gzip");
   Set(header, "tolerance", scene.tolerance);
   if (scene.scallop) {
     Set(header, "scallop", *scene.scallop);
@@ -454,7 +477,7 @@ absl::StatusOr<std::string> MakePage(const Scene& scene) {
   std::string html(page.substr(0, scene_at));
   html += json;
   html += page.substr(scene_at + kScene.size(), data_at - scene_at - kScene.size());
-  html += absl::Base64Escape(buffers.bytes());
+  html += absl::Base64Escape(Gzip(buffers.bytes()));
   html += page.substr(data_at + kData.size());
   return html;
 }

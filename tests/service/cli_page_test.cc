@@ -7,6 +7,8 @@
 #include <absl/strings/escaping.h>
 #include <fmt/format.h>
 #include <gmock/gmock.h>
+#include <google/protobuf/io/gzip_stream.h>
+#include <google/protobuf/io/zero_copy_stream_impl_lite.h>
 #include <google/protobuf/util/json_util.h>
 #include <gtest/gtest.h>
 
@@ -51,6 +53,17 @@ std::string Between(const std::string& text, const std::string& begin, const std
   return text.substr(from + begin.size(), text.find(end, from) - from - begin.size());
 }
 
+std::string Inflated(const std::string& packed) {
+  google::protobuf::io::ArrayInputStream stream(packed.data(), static_cast<int>(packed.size()));
+  google::protobuf::io::GzipInputStream gzip(&stream);
+  std::string bytes;
+  const void* data = nullptr;
+  for (int size = 0; gzip.Next(&data, &size);)
+    bytes.append(static_cast<const char*>(data), static_cast<std::size_t>(size));
+  EXPECT_EQ(gzip.ZlibErrorCode(), 1) << "the end of the stream";
+  return bytes;
+}
+
 Page ReadPage(const std::string& path) {
   const std::string html = Slurp(path);
   Page page;
@@ -58,7 +71,10 @@ Page ReadPage(const std::string& path) {
       Between(html, "<script type=\"application/json\" id=\"patchmill-scene\">", "</script>"));
   const std::string data =
       Between(html, "<script type=\"application/octet-stream\" id=\"patchmill-data\">", "</script>");
-  EXPECT_TRUE(absl::Base64Unescape(data, &page.data));
+  std::string packed;
+  EXPECT_TRUE(absl::Base64Unescape(data, &packed));
+  EXPECT_EQ(page.scene["data_encoding"].String(), "gzip");
+  page.data = Inflated(packed);
   return page;
 }
 
