@@ -197,6 +197,7 @@ void AddPost(const Job& job, Canonical& out) {
   if (job.program_number != 1) out.Add(std::int64_t{job.program_number});
   if (job.control_deviation) out.Add(*job.control_deviation);
   if (!job.arcs) out.Add("straight moves only");
+  if (job.unit == ProgramUnit::kInch) out.Add("inch");
   if (job.restart_points) out.Add("restart points");
   if (job.line_number_step.value_or(job.dialect.line_number_step) != job.dialect.line_number_step)
     out.Add("line numbers").Add(std::int64_t{*job.line_number_step});

@@ -181,6 +181,7 @@ struct Job {
   Setup setup;
   Operation operation;
   Dialect dialect = LinuxCnc();
+  ProgramUnit unit = ProgramUnit::kMillimeter;  // of the program's text
   std::string work_offset = "G54";
   int program_number = 1;  // 1..9999, where the dialect numbers its programs
   // mm: by how much the control leaves the path, where the dialect has no word that says so. Unset: exact

@@ -336,7 +336,7 @@ PassParams MakePassParams(const Job& job, const Resolved& resolved) {
   p.chord_tolerance = resolved.budget.chord;
   p.certificate_gap = std::max(0.1 * resolved.budget.certificate, 1e-6);
   // Generators hold the centre at floor + their own radius, which includes the stock to leave.
-  p.floor_z = resolved.floor_z - job.operation.leave;
+  p.floor_z = resolved.plan_floor_z - job.operation.leave;
   p.roll = job.operation.edge_rule == EdgeRule::kRoll;
   p.budget.limits = job.path_limits;
   return p;

@@ -37,6 +37,14 @@ Budget SplitBudget(double tolerance) {
 
 namespace {
 
+// The floor in the placed frame, raised to a coordinate of the program. Finer coordinates than this round to
+// places that count as on the floor.
+double FloorOnGrid(double floor_z, double zero_z, double tick) {
+  constexpr double kFine = 1.5e-4;  // mm
+  if (tick < kFine || !std::isfinite(floor_z)) return floor_z;
+  return zero_z + tick * std::ceil((floor_z - zero_z) / tick - 1e-6);
+}
+
 // The avoided patches with those of skipped faces.
 std::vector<bool> WithSkipped(std::vector<bool> avoided, const PatchModel& model) {
   for (std::size_t i = 0; i < model.patches.size(); ++i) {
@@ -176,6 +184,7 @@ absl::StatusOr<Resolved> Resolve(const Surface& surface, const Job& job, const R
   PM_ASSIGN_OR_RETURN(r.stock, ResolveStock(surface, job.setup, r, run));
   r.depth_limit = std::max(job.setup.allowance, op.accept_depth);
   r.floor_z = op.floor_z ? *op.floor_z + zero_z : r.box.min.z();
+  r.plan_floor_z = FloorOnGrid(r.floor_z, zero_z, TickOf(job.dialect, job.unit));
   PM_ASSIGN_OR_RETURN(r.containment, ResolveContainment(surface, job, r.program_zero, run));
   double highest = std::max(top, r.stock_top_z);
   for (const Obstacle& o : r.containment.obstacles) highest = std::max(highest, o.top_z + o.margin);

@@ -26,7 +26,10 @@ struct Resolved {
   Vec3 program_zero = Vec3::Zero();
   std::string zero_name;
   double stock_top_z = 0.0;
-  double floor_z = 0.0;      // tip
+  double floor_z = 0.0;  // tip
+  // Tip: what is planned with. It is the floor, or where coordinates are coarser than the floor's slack, the
+  // lowest coordinate that is not below it.
+  double plan_floor_z = 0.0;
   double clearance_z = 0.0;  // tip
   double radius = 0.0;       // ball
   double plan_radius = 0.0;  // ball + stock to leave: what is planned with

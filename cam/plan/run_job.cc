@@ -77,7 +77,7 @@ RegionParams MakeRegionParams(const Job& job, const Resolved& resolved,
   p.radius = resolved.plan_radius;
   p.tolerance = job.operation.tolerance;
   p.steep_angle = resolved.split_angle;
-  p.floor_z = resolved.floor_z - job.operation.leave;
+  p.floor_z = resolved.plan_floor_z - job.operation.leave;
   p.detail = job.operation.detail;
   p.operation_limits = operation_limits;
   p.finished = FinishedByForced(job.operation, resolved.plan_radius);
@@ -184,7 +184,9 @@ Toolpath Fitted(const Job& job, const Resolved& resolved, const LinkResult& moti
   fit.largest_radius = arcs.largest_radius;
   fit.plunge_feed = job.operation.tool.plunge_feed;
   fit.plunge_angle = job.operation.plunge_angle + kArcSteeper;
-  fit.lowest = resolved.floor_z + resolved.radius;
+  // Rounding lowers an arc by a tick at most, kAboveLowest or more.
+  fit.lowest = resolved.plan_floor_z + resolved.radius +
+               std::max(0.0, 1.5 * TickOf(job.dialect, job.unit) - kAboveLowest);
   for (const CutterPath& pass : motion.passes) fit.straight_passes.push_back(pass.kind == PassKind::kRest);
   ArcFit leads = fit;
   leads.kind = MoveKind::kLead;
@@ -307,7 +309,7 @@ std::optional<LinuxCncPlanner> PlannerOf(const Job& job, const Resolved& resolve
   const bool stated =
       !job.dialect.path_tolerance.empty() && resolved.budget.controller >= job.dialect.least_tolerance;
   return LinuxCncPlanner{.tolerance = stated ? resolved.budget.controller : 0.0,
-                         .step = std::pow(10.0, -job.dialect.decimals)};
+                         .step = TickOf(job.dialect, job.unit)};
 }
 
 // The time of the posted motion on the machine of the job.
@@ -406,6 +408,7 @@ absl::StatusOr<JobResult> PlanAndJudge(const Surface& surface, const Job& job, c
   PostParams post;
   post.dialect = job.dialect;
   if (job.line_number_step) post.dialect.line_number_step = *job.line_number_step;
+  post.unit = job.unit;
   post.program_number = job.program_number;
   post.work_offset = job.work_offset;
   post.program_zero = resolved.program_zero;

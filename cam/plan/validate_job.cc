@@ -79,11 +79,13 @@ absl::Status ValidatePost(const Job& job) {
   // The share of a control that follows exactly is free for the rounding.
   const bool exact = dialect.follows_exactly || (dialect.path_tolerance.empty() && !job.control_deviation);
   const double room = SplitBudget(tolerance).rounding + (exact ? share : 0.0);
-  const double rounding = 0.5 * std::sqrt(3.0) * std::pow(10.0, -dialect.decimals);
-  if (dialect.decimals < 4 && rounding > room) {
+  constexpr double kFine = 1.001e-4;  // mm; finer decimals are within every budget
+  const double tick = TickOf(dialect, job.unit), rounding = 0.5 * std::sqrt(3.0) * tick;
+  if (tick > kFine && rounding > room) {
     return FieldError("tolerance_mm",
-                      fmt::format("= {:.6g}; must be at least {:.4g} for the {} decimals of the dialect {}",
-                                  tolerance, tolerance * rounding / room, dialect.decimals, dialect.name));
+                      fmt::format("= {:.6g}; must be at least {:.4g} for the {} decimals of the dialect {}{}",
+                                  tolerance, tolerance * rounding / room, dialect.decimals[job.unit],
+                                  dialect.name, job.unit == ProgramUnit::kInch ? " in inches" : ""));
   }
   return absl::OkStatus();
 }

@@ -1,6 +1,7 @@
 #include "cam/post/dialect.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/base/status.h"
 
@@ -32,6 +33,14 @@ const Dialect* FindDialect(std::string_view name) {
     if (dialect.name == name) return &dialect;
   }
   return nullptr;
+}
+
+double TickOf(const Dialect& dialect, ProgramUnit unit) {
+  return kMillimetersPer[unit] * std::pow(10.0, -dialect.decimals[unit]);
+}
+
+bool HasUnit(const Dialect& dialect, ProgramUnit unit) {
+  return unit == ProgramUnit::kMillimeter || !dialect.unit_word[unit].empty();
 }
 
 const Dialect& LinuxCnc() { return *FindDialect("linuxcnc"); }

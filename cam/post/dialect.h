@@ -38,10 +38,17 @@ struct DialectArcs {
   bool center_from_start = false;
 };
 
+// The unit of a program's coordinates and feeds.
+enum class ProgramUnit { kMillimeter, kInch };
+constexpr ProgramUnit LastOf(ProgramUnit) { return ProgramUnit::kInch; }
+inline constexpr EnumArray<ProgramUnit, double> kMillimetersPer{{{1.0, 25.4}}};
+
 struct Dialect {
   std::string name, title;
   Syntax syntax = Syntax::kRs274;
-  int decimals = 4;                    // of X, Y, Z in mm
+  EnumArray<ProgramUnit, int> decimals{{{4, 5}}};  // of X, Y, Z
+  // The word that {unit} stands for. Empty: the dialect has no programs in that unit.
+  EnumArray<ProgramUnit, std::string> unit_word;
   std::size_t max_comment_length = 0;  // characters in one comment line, including its marks
   std::string comment_open, comment_close;
   bool upper_case = false;   // of comments
@@ -65,7 +72,8 @@ struct Dialect {
   // collinear moves. Empty: the control has no such word.
   std::string path_tolerance;
   double least_tolerance = 0.0;  // mm; below it exact_path is used
-  std::string exact_path;
+  std::string exact_path;        // of programs in mm
+  std::string exact_path_inch;   // of those in inches; empty: the same
   // Used where path_tolerance is empty and the user states by how much the control leaves the path.
   std::string assumed_path;
   // The time on a machine is that of LinuxCNC's planner (cam/toolpath/linuxcnc_times.h). Else the junction
@@ -84,6 +92,11 @@ struct Dialect {
 
   std::string text;  // of the post file
 };
+
+// mm: the last decimal of a coordinate.
+double TickOf(const Dialect& dialect, ProgramUnit unit);
+// Whether the dialect has programs in that unit. Without {unit} in its lines, all its programs are in mm.
+bool HasUnit(const Dialect& dialect, ProgramUnit unit);
 
 inline constexpr int kMaxLineNumberStep = 1000;
 

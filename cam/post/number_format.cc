@@ -26,6 +26,10 @@ bool StartsLikeCommand(std::string_view text) {
 
 std::int64_t ToTicks(double value, int decimals) { return std::llround(value * std::pow(10.0, decimals)); }
 
+std::int64_t ToTicks(double mm, const Dialect& dialect, ProgramUnit unit) {
+  return ToTicks(mm / kMillimetersPer[unit], dialect.decimals[unit]);
+}
+
 std::string FormatTicks(std::int64_t ticks, int decimals) {
   std::string digits = std::to_string(ticks < 0 ? -ticks : ticks);
   if (decimals > 0) {

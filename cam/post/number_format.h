@@ -13,6 +13,7 @@ namespace patchmill {
 // A coordinate in units of its last decimal (ticks). Two positions have the same text if and only if their
 // ticks are equal.
 std::int64_t ToTicks(double value, int decimals);
+std::int64_t ToTicks(double mm, const Dialect& dialect, ProgramUnit unit);
 std::string FormatTicks(std::int64_t ticks, int decimals);  // "-12.0040"
 // Up to `decimals` decimals, without trailing zeros and point: "1200", "0.5". Not for coordinates.
 std::string FormatShort(double value, int decimals);

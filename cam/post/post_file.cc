@@ -116,6 +116,11 @@ absl::Status ReadPlanes(std::string_view value, EnumArray<ArcPlane, bool>& out) 
   return absl::OkStatus();
 }
 
+absl::Status ReadUnit(std::string_view value, std::string& out) {
+  if (value.find_first_of("{}") != std::string_view::npos) return Bad("must hold no placeholder");
+  return ReadText(value, out);
+}
+
 using Reader = std::function<absl::Status(std::string_view, Dialect&)>;
 
 // All keys by "section.key".
@@ -125,7 +130,13 @@ const std::map<std::string, Reader, std::less<>>& Keys() {
       {"control.name", [](View v, Dialect& d) { return ReadName(v, d.name); }},
       {"control.title", [](View v, Dialect& d) { return ReadText(v, d.title); }},
       {"control.syntax", [](View v, Dialect& d) { return ReadSyntax(v, d.syntax); }},
-      {"control.decimals", [](View v, Dialect& d) { return ReadInteger(v, 2, 6, d.decimals); }},
+      {"control.decimals",
+       [](View v, Dialect& d) { return ReadInteger(v, 2, 6, d.decimals[ProgramUnit::kMillimeter]); }},
+      {"control.decimals_inch",
+       [](View v, Dialect& d) { return ReadInteger(v, 3, 7, d.decimals[ProgramUnit::kInch]); }},
+      {"control.unit_mm",
+       [](View v, Dialect& d) { return ReadUnit(v, d.unit_word[ProgramUnit::kMillimeter]); }},
+      {"control.unit_inch", [](View v, Dialect& d) { return ReadUnit(v, d.unit_word[ProgramUnit::kInch]); }},
       {"control.comment", [](View v, Dialect& d) { return ReadComment(v, d); }},
       {"control.comment_length",
        [](View v, Dialect& d) { return ReadInteger(v, 20, 250, d.max_comment_length); }},
@@ -155,6 +166,7 @@ const std::map<std::string, Reader, std::less<>>& Keys() {
       {"path.tolerance", [](View v, Dialect& d) { return ReadPathTemplate(v, true, d.path_tolerance); }},
       {"path.tolerance_least", [](View v, Dialect& d) { return ReadNumber(v, 0.0, 1.0, d.least_tolerance); }},
       {"path.exact", [](View v, Dialect& d) { return ReadPathTemplate(v, false, d.exact_path); }},
+      {"path.exact_inch", [](View v, Dialect& d) { return ReadPathTemplate(v, false, d.exact_path_inch); }},
       {"path.assumed", [](View v, Dialect& d) { return ReadPathTemplate(v, false, d.assumed_path); }},
       {"path.planner",
        [](View v, Dialect& d) { return ReadChoice(v, "junction", "linuxcnc", d.linuxcnc_planner); }},
@@ -249,7 +261,10 @@ class PostFileReader {
       if (!dialect_.restart.empty() && !Has(dialect_.restart, place))
         return Bad("[restart] nowhere sends the tool to " + place);
     }
-    for (const char* placeholder : {"{work_offset}", "{speed}", "{path}", "{tool}", "{coolant}"}) {
+    PM_RETURN_IF_ERROR(CheckUnits());
+    for (const char* placeholder : {"{work_offset}", "{speed}", "{path}", "{tool}", "{coolant}", "{unit}"}) {
+      // The unit of a Heidenhain program is that of its first line, wherever it is started.
+      if (dialect_.syntax == Syntax::kKlartext && placeholder == std::string_view("{unit}")) continue;
       if (!dialect_.restart.empty() && Has(dialect_.begin, placeholder) &&
           !Has(dialect_.restart, placeholder))
         return Bad(
@@ -263,6 +278,8 @@ class PostFileReader {
     const bool other_planes = dialect_.arcs.planes[ArcPlane::kZx] || dialect_.arcs.planes[ArcPlane::kYz];
     if (dialect_.syntax == Syntax::kKlartext && (other_planes || dialect_.arcs.helices))
       return Bad("[arcs] klartext programs have arcs in the plane G17 only, and no helices");
+    if (!seen_.contains("control.decimals_inch"))
+      dialect_.decimals[ProgramUnit::kInch] = dialect_.decimals[ProgramUnit::kMillimeter] + 1;
     if (dialect_.title.empty()) dialect_.title = dialect_.name;
     dialect_.text = text;
     return std::move(dialect_);
@@ -274,6 +291,17 @@ class PostFileReader {
       if (line.find(placeholder) != std::string::npos) return true;
     }
     return false;
+  }
+
+  // Lines with {unit} need its words, and the words need such a line.
+  absl::Status CheckUnits() const {
+    const bool used = Has(dialect_.begin, "{unit}");
+    const bool mm = !dialect_.unit_word[ProgramUnit::kMillimeter].empty();
+    const bool inch = !dialect_.unit_word[ProgramUnit::kInch].empty();
+    if (used && !mm) return Bad("[begin] has {unit}, and [control] unit_mm is missing");
+    if (!used && (mm || inch))
+      return Bad("[control] has unit_mm or unit_inch, and [begin] nowhere has {unit}");
+    return absl::OkStatus();
   }
 
   absl::Status Section(std::string_view text) {

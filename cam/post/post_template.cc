@@ -7,7 +7,7 @@
 namespace patchmill {
 namespace {
 
-constexpr std::array<std::pair<std::string_view, std::string PostValues::*>, 10> kPlaceholders = {{
+constexpr std::array<std::pair<std::string_view, std::string PostValues::*>, 12> kPlaceholders = {{
     {"program", &PostValues::program},
     {"work_offset", &PostValues::work_offset},
     {"tool", &PostValues::tool},
@@ -18,6 +18,8 @@ constexpr std::array<std::pair<std::string_view, std::string PostValues::*>, 10>
     {"x", &PostValues::x},
     {"y", &PostValues::y},
     {"z", &PostValues::z},
+    {"unit", &PostValues::unit},
+    {"machine_top", &PostValues::top},
 }};
 
 std::string PostValues::*MemberOf(std::string_view name) {

@@ -17,7 +17,9 @@ struct PostValues {
   std::string tool;         // number
   std::string speed;        // 1/min
   std::string coolant, path, tolerance;
-  std::string x, y, z;  // mm, first position of the tip
+  std::string x, y, z;  // first position of the tip
+  std::string unit;     // "G21"
+  std::string top;      // machine_top
 };
 
 // {header} stands alone on its line, for the comments.

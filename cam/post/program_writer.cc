@@ -43,6 +43,8 @@ absl::Status Validate(const Toolpath& toolpath, const Tool& tool, const PostPara
   if (params.program_number < 1 || params.program_number > 9999) {
     return bad(fmt::format("post.program_number = {}; must be in [1, 9999]", params.program_number));
   }
+  if (!HasUnit(params.dialect, params.unit))
+    return bad(fmt::format("post.unit: the dialect {} has no programs in inches", params.dialect.name));
   if (!IsWorkOffset(params.work_offset)) {
     return bad(fmt::format("post.work_offset = \"{}\"; must be G54 to G59", params.work_offset));
   }
@@ -105,11 +107,11 @@ class MoveRounder {
   MoveRounder(const Toolpath& toolpath, const PostParams& params)
       : toolpath_(toolpath),
         params_(params),
-        decimals_(params.dialect.decimals),
+        tick_(TickOf(params.dialect, params.unit)),
         shift_(params.program_zero + Vec3(0, 0, toolpath.ball_radius)) {}
 
   RoundedMoves Round() {
-    const std::int64_t clearance = ToTicks(params_.clearance_z - params_.program_zero.z(), decimals_);
+    const std::int64_t clearance = Tick(params_.clearance_z - params_.program_zero.z());
     moves_.reserve(toolpath_.moves.size() + 2);
     at_ = At(toolpath_.moves.front().to - shift_);
     at_[2] = std::max(at_[2], clearance);
@@ -142,9 +144,8 @@ class MoveRounder {
   }
 
  private:
-  Ticks At(const Vec3& tip) const {
-    return {ToTicks(tip.x(), decimals_), ToTicks(tip.y(), decimals_), ToTicks(tip.z(), decimals_)};
-  }
+  std::int64_t Tick(double mm) const { return ToTicks(mm, params_.dialect, params_.unit); }
+  Ticks At(const Vec3& tip) const { return {Tick(tip.x()), Tick(tip.y()), Tick(tip.z())}; }
 
   void Go(const Vec3& tip, double feed, bool rapid) {
     const Ticks to = At(tip);
@@ -178,7 +179,7 @@ class MoveRounder {
     for (double k = 0.0; k < parts; k += 1.0) {
       const ArcEnds part{PlaceOn(arc, exact.ends, k / parts), PlaceOn(arc, exact.ends, (k + 1.0) / parts)};
       const Ticks to = At(part.to);
-      const auto center = RoundedCenter({arc, part}, at, to, decimals_);
+      const auto center = RoundedCenter({arc, part}, at, to, tick_);
       if (!center || (!params_.dialect.arcs.helices && to[third] != at[third])) return false;
       blocks.push_back({.to = to, .feed = feed, .arc = RoundedArc{arc.plane, arc.clockwise, *center}});
       at = to;
@@ -190,16 +191,25 @@ class MoveRounder {
 
   const Toolpath& toolpath_;
   const PostParams& params_;
-  const int decimals_;
-  const Vec3 shift_;  // from the tip in the program frame to the centre
+  const double tick_;  // mm
+  const Vec3 shift_;   // from the tip in the program frame to the centre
   Ticks at_{};
   std::vector<RoundedMove> moves_;
 };
 
 // A coordinate as a program has it.
-std::string PlaceText(const Dialect& dialect, std::int64_t ticks) {
-  const bool plus = dialect.syntax == Syntax::kKlartext && ticks >= 0;
-  return fmt::format("{}{}", plus ? "+" : "", FormatTicks(ticks, dialect.decimals));
+std::string PlaceText(const PostParams& params, std::int64_t ticks) {
+  const bool plus = params.dialect.syntax == Syntax::kKlartext && ticks >= 0;
+  return fmt::format("{}{}", plus ? "+" : "", FormatTicks(ticks, params.dialect.decimals[params.unit]));
+}
+
+// A feed as a program has it. In inches it is rounded down: a step of the last decimal is more than anyone
+// allows above a limit.
+std::string FeedText(double mm_per_min, ProgramUnit unit) {
+  constexpr int kDecimals = 4;
+  const double feed = std::max(mm_per_min / kMillimetersPer[unit], 1e-4);
+  if (unit == ProgramUnit::kMillimeter) return FormatShort(feed, kDecimals);
+  return FormatShort(std::floor(feed * 1e4 * (1.0 + 1e-12)) * 1e-4, kDecimals);
 }
 
 // Writes blocks without repeating modal words.
@@ -207,9 +217,10 @@ class BlockWriter {
  public:
   // `lines`: about as many will be written. The step of their numbers is so small that no number repeats, if
   // that is possible.
-  BlockWriter(const Dialect& dialect, std::size_t lines)
-      : dialect_(dialect),
-        step_(static_cast<int>(std::min<std::size_t>(static_cast<std::size_t>(dialect.line_number_step),
+  BlockWriter(const PostParams& params, std::size_t lines)
+      : params_(params),
+        dialect_(params.dialect),
+        step_(static_cast<int>(std::min<std::size_t>(static_cast<std::size_t>(dialect_.line_number_step),
                                                      std::max<std::size_t>(kLargestLineNumber / lines, 1)))) {
   }
 
@@ -257,15 +268,15 @@ class BlockWriter {
     }
     for (std::size_t k = 0; k < 3; ++k) {
       const bool in_plane = move.arc && k != kThirdAxis[move.arc->plane];
-      if (in_plane || move.to[k] != at_[k]) add(kAxis[k] + PlaceText(dialect_, move.to[k]));
+      if (in_plane || move.to[k] != at_[k]) add(kAxis[k] + PlaceText(params_, move.to[k]));
     }
     if (move.arc && IsKlartext()) add(move.arc->clockwise ? "DR-" : "DR+");
     for (std::size_t k = 0; move.arc && !IsKlartext() && k < 3; ++k) {
-      if (k != kThirdAxis[move.arc->plane]) add(kCenter[k] + PlaceText(dialect_, move.arc->center[k]));
+      if (k != kThirdAxis[move.arc->plane]) add(kCenter[k] + PlaceText(params_, move.arc->center[k]));
     }
     if (IsKlartext() && move.rapid) add("FMAX");
     if (!move.rapid && (rapid_ || move.feed != feed_)) {
-      std::string feed = FormatShort(std::max(move.feed, 1e-4), 4);
+      std::string feed = FeedText(move.feed, params_.unit);
       if (dialect_.feed_point && feed.find('.') == std::string::npos) feed += '.';
       add("F" + feed);
       feed_ = move.feed;
@@ -284,10 +295,11 @@ class BlockWriter {
  private:
   // The centre of the arc that begins here.
   void Pole(const RoundedArc& arc) {
-    Line(fmt::format("CC X{} Y{}", PlaceText(dialect_, at_[0] + arc.center[0]),
-                     PlaceText(dialect_, at_[1] + arc.center[1])));
+    Line(fmt::format("CC X{} Y{}", PlaceText(params_, at_[0] + arc.center[0]),
+                     PlaceText(params_, at_[1] + arc.center[1])));
   }
 
+  const PostParams& params_;
   const Dialect& dialect_;
   const int step_;  // of line numbers; 0: none
   std::string text_;
@@ -304,7 +316,7 @@ class BlockWriter {
 struct TickRange {
   Ticks low{}, high{};
 };
-TickRange RangeOf(const std::vector<RoundedMove>& moves, int decimals) {
+TickRange RangeOf(const std::vector<RoundedMove>& moves, const PostParams& params) {
   Ticks at = moves.front().to;
   TickRange range{at, at};
   const auto add = [&](const Ticks& place) {
@@ -313,7 +325,8 @@ TickRange RangeOf(const std::vector<RoundedMove>& moves, int decimals) {
       range.high[k] = std::max(range.high[k], place[k]);
     }
   };
-  const double unit = std::pow(10.0, -decimals);
+  const double unit = TickOf(params.dialect, params.unit);
+  const auto tick = [&](double mm) { return ToTicks(mm, params.dialect, params.unit); };
   const auto place = [&](const Ticks& t) {
     return Vec3(unit * Vec3(static_cast<double>(t[0]), static_cast<double>(t[1]), static_cast<double>(t[2])));
   };
@@ -322,7 +335,7 @@ TickRange RangeOf(const std::vector<RoundedMove>& moves, int decimals) {
       const Vec3 center = place(at) + place(move.arc->center);
       const Arc arc{move.arc->plane, Xy(ToPlane(move.arc->plane, center)), move.arc->clockwise};
       for (const Vec3& p : TurningPlaces(arc, {place(at), place(move.to)}))
-        add({ToTicks(p.x(), decimals), ToTicks(p.y(), decimals), ToTicks(p.z(), decimals)});
+        add({tick(p.x()), tick(p.y()), tick(p.z())});
     }
     add(move.to);
     at = move.to;
@@ -330,23 +343,32 @@ TickRange RangeOf(const std::vector<RoundedMove>& moves, int decimals) {
   return range;
 }
 
-std::string ToolLine(const Tool& tool) {
-  std::string line = fmt::format("tool T{}: ball D {}", tool.number, FormatShort(2.0 * BallRadius(tool), 4));
+std::string ToolLine(const Tool& tool, ProgramUnit unit) {
+  const auto length = [&](double mm, int decimals) {
+    return unit == ProgramUnit::kInch ? FormatShort(mm / kMillimetersPer[unit], 4)
+                                      : FormatShort(mm, decimals);
+  };
+  std::string line = fmt::format("tool T{}: ball D {}", tool.number, length(2.0 * BallRadius(tool), 4));
   if (!tool.name.empty()) line += ", " + tool.name;
-  if (tool.flute_length) line += ", flute " + FormatShort(*tool.flute_length, 3);
-  if (tool.shank_diameter) line += ", shank D " + FormatShort(*tool.shank_diameter, 3);
-  if (tool.stickout) line += ", stick-out " + FormatShort(*tool.stickout, 3);
+  if (tool.flute_length) line += ", flute " + length(*tool.flute_length, 3);
+  if (tool.shank_diameter) line += ", shank D " + length(*tool.shank_diameter, 3);
+  if (tool.stickout) line += ", stick-out " + length(*tool.stickout, 3);
   return line;
 }
 
 std::vector<std::string> HeaderTexts(const std::vector<RoundedMove>& moves, const Tool& tool,
-                                     const PostParams& params, const Dialect& dialect) {
-  const auto [low, high] = RangeOf(moves, dialect.decimals);
+                                     const PostParams& params) {
+  const Dialect& dialect = params.dialect;
+  const auto [low, high] = RangeOf(moves, params);
   std::vector<std::string> texts = params.header;
-  texts.push_back("units MM, feeds MM per minute; X Y Z is the tool tip, the lowest point of the ball");
-  const auto zero = [&](int k) {
-    return FormatTicks(ToTicks(params.program_zero[k], dialect.decimals), dialect.decimals);
-  };
+  const auto text = [&](std::int64_t ticks) { return FormatTicks(ticks, dialect.decimals[params.unit]); };
+  if (params.unit == ProgramUnit::kMillimeter) {
+    texts.push_back("units MM, feeds MM per minute; X Y Z is the tool tip, the lowest point of the ball");
+  } else {
+    texts.push_back("lengths in the comments above are in MM");
+    texts.push_back("units INCH, feeds INCH per minute; X Y Z is the tool tip, the lowest point of the ball");
+  }
+  const auto zero = [&](int k) { return text(ToTicks(params.program_zero[k], dialect, params.unit)); };
   const bool chooses = std::any_of(dialect.begin.begin(), dialect.begin.end(), [](const std::string& line) {
     return line.find("{work_offset}") != std::string::npos;
   });
@@ -355,25 +377,37 @@ std::vector<std::string> HeaderTexts(const std::vector<RoundedMove>& moves, cons
       chooses ? "work offset " + params.work_offset : std::string("the program chooses no work offset")));
   std::string range = "tip of all moves below machine zero:";
   for (std::size_t k = 0; k < 3; ++k) {
-    range += fmt::format(" {} {} to {}", kAxis[k], FormatTicks(low[k], dialect.decimals),
-                         FormatTicks(high[k], dialect.decimals));
+    range += fmt::format(" {} {} to {}", kAxis[k], text(low[k]), text(high[k]));
     if (k < 2) range += ",";
   }
   texts.push_back(std::move(range));
-  texts.push_back(ToolLine(tool));
+  texts.push_back(ToolLine(tool, params.unit));
   return texts;
 }
 
 // The line that says how far the control may leave the path. The tolerance is rounded down, so that the
 // control does not get more than its share of the budget.
-std::string PathLine(const Dialect& dialect, double tolerance) {
+std::string PathLine(const PostParams& params) {
+  const Dialect& dialect = params.dialect;
+  const bool inch = params.unit == ProgramUnit::kInch;
+  const std::string& exact =
+      inch && !dialect.exact_path_inch.empty() ? dialect.exact_path_inch : dialect.exact_path;
+  const double tolerance = params.controller_tolerance;
   if (dialect.follows_exactly) return {};
-  if (dialect.path_tolerance.empty()) return tolerance > 0.0 ? dialect.assumed_path : dialect.exact_path;
-  const auto ticks = static_cast<std::int64_t>(std::floor(tolerance * 1e4 * (1.0 + 1e-9)));
-  if (ticks <= 0 || static_cast<double>(ticks) * 1e-4 < dialect.least_tolerance) return dialect.exact_path;
+  if (dialect.path_tolerance.empty()) return tolerance > 0.0 ? dialect.assumed_path : exact;
+  const int decimals = inch ? 5 : 4;
+  const double tick = kMillimetersPer[params.unit] * std::pow(10.0, -decimals);
+  const auto ticks = static_cast<std::int64_t>(std::floor(tolerance / tick * (1.0 + 1e-9)));
+  if (ticks <= 0 || static_cast<double>(ticks) * tick < dialect.least_tolerance) return exact;
   PostValues values;
-  values.tolerance = FormatTicks(ticks, 4);
+  values.tolerance = FormatTicks(ticks, decimals);
   return *FillTemplate(dialect.path_tolerance, values);
+}
+
+// machine_top in the program's unit, not below it.
+std::string TopText(const PostParams& params) {
+  const double top = params.dialect.machine_top / kMillimetersPer[params.unit];
+  return FormatShort(std::ceil(top * 1e4 - 1e-6) * 1e-4, 4);
 }
 
 }  // namespace
@@ -407,22 +441,24 @@ absl::StatusOr<WrittenProgram> WriteProgramWithLines(const Toolpath& toolpath, c
   PM_RETURN_IF_ERROR(Validate(toolpath, tool, params));
   const Dialect& dialect = params.dialect;
   const auto [moves, sections] = MoveRounder(toolpath, params).Round();
-  const auto place = [&](std::size_t k) { return PlaceText(dialect, moves.front().to[k]); };
+  const auto place = [&](std::size_t k) { return PlaceText(params, moves.front().to[k]); };
   PostValues values{.program = fmt::format("{:04}", params.program_number),
                     .work_offset = params.work_offset,
                     .tool = fmt::format("{}", tool.number),
                     .speed = FormatShort(tool.spindle_rpm, 1),
                     .coolant = CoolantLine(dialect, tool.coolant),
-                    .path = PathLine(dialect, params.controller_tolerance),
+                    .path = PathLine(params),
                     .tolerance = {},
                     .x = place(0),
                     .y = place(1),
-                    .z = place(2)};
-  BlockWriter out(dialect, moves.size() + kLinesAround * (1 + sections.size()));
+                    .z = place(2),
+                    .unit = dialect.unit_word[params.unit],
+                    .top = TopText(params)};
+  BlockWriter out(params, moves.size() + kLinesAround * (1 + sections.size()));
   const auto write = [&](const std::vector<std::string>& lines) {
     for (const std::string& line : lines) {
       if (line == kHeaderLine) {
-        for (const std::string& text : HeaderTexts(moves, tool, params, dialect)) {
+        for (const std::string& text : HeaderTexts(moves, tool, params)) {
           for (const std::string& comment : CommentLines(dialect, text)) out.Bare(comment);
         }
       } else if (const auto filled = FillTemplate(line, values)) {
@@ -444,9 +480,9 @@ absl::StatusOr<WrittenProgram> WriteProgramWithLines(const Toolpath& toolpath, c
       if (!next->restart) continue;
       comment(fmt::format("restart point {}: the control may start at the next line, with T{} in the spindle",
                           ++restarts, tool.number));
-      values.x = PlaceText(dialect, next->place[0]);
-      values.y = PlaceText(dialect, next->place[1]);
-      values.z = PlaceText(dialect, next->place[2]);
+      values.x = PlaceText(params, next->place[0]);
+      values.y = PlaceText(params, next->place[1]);
+      values.z = PlaceText(params, next->place[2]);
       write(dialect.restart);
       out.StartAt(next->place);
     }

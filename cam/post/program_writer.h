@@ -26,10 +26,11 @@ struct ProgramSection {
 
 struct PostParams {
   Dialect dialect = LinuxCnc();
-  int program_number = 1;                  // 1..9999, where the dialect numbers its programs
-  std::string work_offset = "G54";         // G54..G59
-  Vec3 program_zero = Vec3::Zero();        // point of the placed model that becomes X0 Y0 Z0
-  std::string zero_name = "model origin";  // for the header
+  ProgramUnit unit = ProgramUnit::kMillimeter;  // of the text; all else is in mm
+  int program_number = 1;                       // 1..9999, where the dialect numbers its programs
+  std::string work_offset = "G54";              // G54..G59
+  Vec3 program_zero = Vec3::Zero();             // point of the placed model that becomes X0 Y0 Z0
+  std::string zero_name = "model origin";       // for the header
   // mm, >= 0: by how much the control may leave the path. The dialect's word states it. If the dialect has
   // none, it is the user's own statement about the control. 0 means exact stop, if the control needs it.
   double controller_tolerance = 0.0;
@@ -44,12 +45,13 @@ struct PostParams {
 };
 
 // Writes straight moves, and arcs where the dialect has them. An arc is written as two, or else as chords,
-// if no rounded centre keeps the rules for the radii at its ends (round_arc.h); as chords also if its plane,
-// its radius or its climb is not the dialect's. Coordinates have the dialect's decimals, no exponent and no
-// "-0.0000"; moves that vanish in rounding are dropped. Before and after the moves stand the lines of the
-// dialect. Modal words are not repeated. The text is ASCII and ends with a newline. INVALID_ARGUMENT for an
-// unknown work offset, for tool data, moves or parameters out of range, for restart points where the dialect
-// has no lines for them, and for a toolpath without moves.
+// if no rounded centre keeps the rules for the radii at its ends (round_arc.h); as chords also if its
+// plane, its radius or its climb is not the dialect's. Coordinates have the dialect's decimals, no exponent
+// and no "-0.0000"; moves that vanish in rounding are dropped. Before and after the moves stand the lines
+// of the dialect. Modal words are not repeated. The text is ASCII and ends with a newline. INVALID_ARGUMENT
+// for an unknown work offset, for a unit that the dialect does not have, for tool data, moves or parameters
+// out of range, for restart points where the dialect has no lines for them, and for a toolpath without
+// moves.
 absl::StatusOr<std::string> WriteProgram(const Toolpath& toolpath, const Tool& tool,
                                          const PostParams& params);
 

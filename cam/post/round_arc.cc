@@ -10,8 +10,6 @@ constexpr int kNear = 3;             // units: centres that far from the exact o
 constexpr double kLeastChord = 8.0;  // units, between different ends
 constexpr double kTurnSlack = 0.05;  // rad: by how much rounding may change the sweep
 
-double UnitOf(int decimals) { return std::pow(10.0, -decimals); }  // mm
-
 Vec3 Place(const Ticks& ticks, double unit) {
   return unit *
          Vec3(static_cast<double>(ticks[0]), static_cast<double>(ticks[1]), static_cast<double>(ticks[2]));
@@ -19,9 +17,9 @@ Vec3 Place(const Ticks& ticks, double unit) {
 
 }  // namespace
 
-std::optional<Ticks> RoundedCenter(const ExactArc& exact, const Ticks& from, const Ticks& to, int decimals) {
+std::optional<Ticks> RoundedCenter(const ExactArc& exact, const Ticks& from, const Ticks& to, double unit) {
   const ArcPlane plane = exact.arc.plane;
-  const double unit = UnitOf(decimals), sweep = Sweep(exact.arc, exact.ends);
+  const double sweep = Sweep(exact.arc, exact.ends);
   const Vec3 start = Place(from, unit);
   const Vec2 exact_start = Xy(ToPlane(plane, exact.ends.from)), exact_end = Xy(ToPlane(plane, exact.ends.to));
   // From here on the start is the origin.

@@ -34,7 +34,7 @@ struct MillOptions {
   std::string model, program, report, work_offset = "G54";
   std::vector<std::string> previews;
   PostOptions post;
-  bool no_arcs = false, restart_points = false;
+  bool no_arcs = false, inch = false, restart_points = false;
   std::optional<int> line_numbers;
   int program_number = 1;
 };
@@ -76,6 +76,7 @@ absl::StatusOr<v1::GenerateProgramRequest> MakeRequest(const MillOptions& option
   request.mutable_post()->set_dialect(std::move(post->dialect));
   request.mutable_post()->set_post_file(std::move(post->post_file));
   if (options.no_arcs) request.mutable_post()->set_arcs(false);
+  if (options.inch) request.mutable_post()->set_unit(v1::LENGTH_UNIT_INCH);
   request.mutable_post()->set_restart_points(options.restart_points);
   if (options.line_numbers) request.mutable_post()->set_line_number_step(*options.line_numbers);
   request.mutable_post()->set_program_number(options.program_number);
@@ -410,6 +411,8 @@ Command AddMill(CLI::App& app) {
   AddPostOptions(app, "--post", options->post);
   app.add_flag("--no-arcs", options->no_arcs,
                "straight moves only (G1), also where the dialect has arcs (G2, G3)");
+  app.add_flag("--inch", options->inch,
+               "write the program in inches (G20); options, reports and pictures stay in mm");
   app.add_flag("--restart-points", options->restart_points,
                "write places where the control may be started again: from above, with spindle and modes");
   app.add_option("--line-numbers", options->line_numbers,

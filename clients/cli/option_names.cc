@@ -80,6 +80,7 @@ constexpr Entry kOptions[] = {
     {"post.post_file", "--post"},
     {"post.program_number", "--program-number"},
     {"post.restart_points", "--restart-points"},
+    {"post.unit", "--inch"},
     {"post.line_number_step", "--line-numbers"},
     {"control_deviation_mm", "--control-deviation"},
     {"assume_exact_path", "--assume"},

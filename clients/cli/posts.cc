@@ -23,11 +23,12 @@ void PrintList(const v1::ListPostsResponse& response) {
     name_width = std::max(name_width, post.name().size());
     title_width = std::max(title_width, post.title().size());
   }
-  fmt::print("{:<{}}  {:<{}}  {:<8}  {}\n", "name", name_width, "controls", title_width, "decimals",
+  fmt::print("{:<{}}  {:<{}}  {:<17}  {}\n", "name", name_width, "controls", title_width, "decimals mm, inch",
              "word for the tolerance of the path");
   for (const v1::PostInfo& post : response.posts()) {
-    fmt::print("{:<{}}  {:<{}}  {:<8}  {}\n", post.name(), name_width, post.title(), title_width,
-               post.decimals(), post.path_tolerance().empty() ? "none" : post.path_tolerance());
+    const std::string decimals = fmt::format("{}, {}", post.decimals(), post.decimals_inch());
+    fmt::print("{:<{}}  {:<{}}  {:<17}  {}\n", post.name(), name_width, post.title(), title_width, decimals,
+               post.path_tolerance().empty() ? "none" : post.path_tolerance());
   }
 }
 

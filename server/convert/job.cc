@@ -93,8 +93,17 @@ void ReadPost(const v1::Post& proto, Job& job, FieldErrors& errors) {
             fmt::format("in [0, {}]", kMaxLineNumberStep));
     job.line_number_step = step;
   }
-  if (proto.unit() != v1::LENGTH_UNIT_UNSPECIFIED && proto.unit() != v1::LENGTH_UNIT_MILLIMETER) {
-    errors.NotYet("post.unit", "programs are in millimetres");
+  if (proto.unit() == v1::LENGTH_UNIT_INCH) {
+    job.unit = ProgramUnit::kInch;
+    if (!HasUnit(job.dialect, job.unit)) {
+      errors.Add(
+          "post.unit",
+          fmt::format("= inches; the dialect {} has none: its file needs unit_mm, unit_inch and {{unit}}",
+                      job.dialect.name));
+    }
+  } else if (proto.unit() != v1::LENGTH_UNIT_UNSPECIFIED && proto.unit() != v1::LENGTH_UNIT_MILLIMETER) {
+    errors.Add("post.unit",
+               fmt::format("= {}; must be millimetres or inches", static_cast<int>(proto.unit())));
   }
   if (!proto.work_offset().empty()) {
     const std::string& w = proto.work_offset();
@@ -318,7 +327,7 @@ v1::Post PostToProto(const Job& job) {
   proto.set_arcs(job.arcs);
   proto.set_restart_points(job.restart_points);
   proto.set_line_number_step(job.line_number_step.value_or(job.dialect.line_number_step));
-  proto.set_unit(v1::LENGTH_UNIT_MILLIMETER);
+  proto.set_unit(job.unit == ProgramUnit::kInch ? v1::LENGTH_UNIT_INCH : v1::LENGTH_UNIT_MILLIMETER);
   proto.set_work_offset(job.work_offset);
   return proto;
 }

@@ -13,7 +13,8 @@ absl::Status HandleListPosts(const Call&, const v1::ListPostsRequest& request,
     info.set_name(dialect.name);
     info.set_title(dialect.title);
     info.set_path_tolerance(dialect.path_tolerance);
-    info.set_decimals(dialect.decimals);
+    info.set_decimals(dialect.decimals[ProgramUnit::kMillimeter]);
+    if (HasUnit(dialect, ProgramUnit::kInch)) info.set_decimals_inch(dialect.decimals[ProgramUnit::kInch]);
     info.set_post_file(dialect.text);
   }
   return absl::OkStatus();

@@ -19,7 +19,11 @@ if(PATCHMILL_SERVICE AND NOT PATCHMILL_SANITIZE)
   patchmill_job(sphere tests/models/sphere.bv --scale 20 --tool-diameter 6 --scallop 0.02)
 
   # The commands of README and reference do what they say there.
-  foreach(page README.md docs/curves.md docs/patches.md docs/networks.md docs/curvature.md docs/editing.md
+  set(page_of_pages)
+  if(PATCHMILL_NODE AND EXISTS ${CMAKE_SOURCE_DIR}/clients/viewer/node_modules/esbuild)
+    set(page_of_pages docs/page.md)
+  endif()
+  foreach(page ${page_of_pages} README.md docs/curves.md docs/patches.md docs/networks.md docs/curvature.md docs/editing.md
           docs/first_surfaces.md docs/fairing.md docs/evaluation.md docs/lines.md docs/regions.md docs/reach.md
           docs/limits.md)
     get_filename_component(name ${page} NAME_WE)

@@ -277,26 +277,34 @@ constexpr std::string_view kOwnPost =
 
 INSTANTIATE_TEST_SUITE_P(
     Posts, WrongJobs,
-    ::testing::Values(Wrong{"Dialect", [](Request& r) { r.mutable_post()->set_dialect("klingon"); },
-                            "post.dialect = \"klingon\"; must be one of: fanuc, grbl, haas, heidenhain, "
-                            "linuxcnc, mach3, siemens"},
-                      Wrong{"PostFile",
-                            [](Request& r) { r.mutable_post()->set_post_file("[control]\nname = A b\n"); },
-                            "post.post_file line 2: name: = \"A b\"; must consist of a-z, 0-9, - and _"},
-                      Wrong{"ProgramNumber", [](Request& r) { r.mutable_post()->set_program_number(10000); },
-                            "post.program_number = 10000; must be in [1, 9999]"},
-                      Wrong{"LineNumbers", [](Request& r) { r.mutable_post()->set_line_number_step(1001); },
-                            "post.line_number_step = 1001; must be in [0, 1000]"},
-                      Wrong{"RestartPoints",
-                            [](Request& r) {
-                              r.mutable_post()->set_post_file(std::string(kOwnPost));
-                              r.mutable_post()->set_restart_points(true);
-                            },
-                            "post.restart_points = true; the dialect own has no section [restart]"},
-                      Wrong{"Deviation", [](Request& r) { r.mutable_post()->set_control_deviation_mm(2.0); },
-                            "post.control_deviation_mm = 2; must be in (0, 1]"},
-                      Wrong{"WorkOffset", [](Request& r) { r.mutable_post()->set_work_offset("G60"); },
-                            "post.work_offset = \"G60\"; must be one of G54 to G59"}),
+    ::testing::Values(
+        Wrong{"Dialect", [](Request& r) { r.mutable_post()->set_dialect("klingon"); },
+              "post.dialect = \"klingon\"; must be one of: fanuc, grbl, haas, heidenhain, "
+              "linuxcnc, mach3, siemens"},
+        Wrong{"PostFile", [](Request& r) { r.mutable_post()->set_post_file("[control]\nname = A b\n"); },
+              "post.post_file line 2: name: = \"A b\"; must consist of a-z, 0-9, - and _"},
+        Wrong{"ProgramNumber", [](Request& r) { r.mutable_post()->set_program_number(10000); },
+              "post.program_number = 10000; must be in [1, 9999]"},
+        Wrong{"LineNumbers", [](Request& r) { r.mutable_post()->set_line_number_step(1001); },
+              "post.line_number_step = 1001; must be in [0, 1000]"},
+        Wrong{"Metres", [](Request& r) { r.mutable_post()->set_unit(v1::LENGTH_UNIT_METER); },
+              "post.unit = 3; must be millimetres or inches"},
+        Wrong{"InchesThatThePostHasNot",
+              [](Request& r) {
+                r.mutable_post()->set_post_file(std::string(kOwnPost));
+                r.mutable_post()->set_unit(v1::LENGTH_UNIT_INCH);
+              },
+              "post.unit = inches; the dialect own has none: its file needs unit_mm, unit_inch and {unit}"},
+        Wrong{"RestartPoints",
+              [](Request& r) {
+                r.mutable_post()->set_post_file(std::string(kOwnPost));
+                r.mutable_post()->set_restart_points(true);
+              },
+              "post.restart_points = true; the dialect own has no section [restart]"},
+        Wrong{"Deviation", [](Request& r) { r.mutable_post()->set_control_deviation_mm(2.0); },
+              "post.control_deviation_mm = 2; must be in (0, 1]"},
+        Wrong{"WorkOffset", [](Request& r) { r.mutable_post()->set_work_offset("G60"); },
+              "post.work_offset = \"G60\"; must be one of G54 to G59"}),
     kName);
 
 void AddRing(std::initializer_list<double> xy, google::protobuf::RepeatedField<double>* out) {
@@ -418,8 +426,6 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(Wrong{"SecondOperation",
                             [](Request& r) { *r.mutable_job()->add_operations() = OperationOf(r); },
                             "job.operations[1] is not there yet", kNext},
-                      Wrong{"Inch", [](Request& r) { r.mutable_post()->set_unit(v1::LENGTH_UNIT_INCH); },
-                            "post.unit is not there yet", kNext},
                       Wrong{"Dwell", [](Request& r) { r.mutable_post()->set_spindle_dwell_s(2); },
                             "post.spindle_dwell_s is not there yet", kNext}),
     kName);
@@ -517,7 +523,7 @@ Request Unusual() {
   r.mutable_post()->set_arcs(false);
   r.mutable_post()->set_restart_points(true);
   r.mutable_post()->set_line_number_step(5);
-  r.mutable_post()->set_unit(v1::LENGTH_UNIT_MILLIMETER);
+  r.mutable_post()->set_unit(v1::LENGTH_UNIT_INCH);
   r.mutable_post()->set_work_offset("G57");
   return r;
 }
@@ -609,6 +615,7 @@ TEST(JobDigestTest, SeesEveryFieldAndNoDefault) {
   EXPECT_TRUE(differs([](Request& r) { r.mutable_post()->set_arcs(false); }));
   EXPECT_TRUE(differs([](Request& r) { r.mutable_post()->set_restart_points(true); }));
   EXPECT_TRUE(differs([](Request& r) { r.mutable_post()->set_line_number_step(7); }));
+  EXPECT_TRUE(differs([](Request& r) { r.mutable_post()->set_unit(v1::LENGTH_UNIT_INCH); }));
   EXPECT_TRUE(differs([](Request& r) { SelectionOf(r).add_avoid_patch_ids("bump"); }));
   EXPECT_TRUE(differs([](Request& r) { OperationOf(r).set_regions_sha256(std::string(32, 'x')); }));
   EXPECT_TRUE(differs([](Request& r) { AddOverride(r, true).set_skip(true); }));

@@ -44,10 +44,10 @@ TEST(RoundedCenter, KeepsTheRuleOfEveryControl) {
   for (std::uint64_t seed = 1; seed <= 20'000; ++seed) {
     Random random(seed);
     const Case c = RandomCase(random);
-    const int decimals = 3 + random.Int(2);
-    const double unit = std::pow(10.0, -decimals);
+    constexpr double kUnits[] = {1e-3, 1e-4, 25.4e-4, 25.4e-5};  // of programs in mm and in inches
+    const double unit = kUnits[random.Int(4)];
     const Ticks from = Rounded(c.exact.ends.from, unit), to = Rounded(c.exact.ends.to, unit);
-    const auto center = RoundedCenter(c.exact, from, to, decimals);
+    const auto center = RoundedCenter(c.exact, from, to, unit);
     if (!center) continue;
     ++written;
     const ArcPlane plane = c.exact.arc.plane;
@@ -76,7 +76,7 @@ TEST(RoundedCenter, TakesFullCircles) {
   const Arc arc{ArcPlane::kZx, Vec2(1.23456, 7.65432), true};
   const Vec3 place = FromPlane(ArcPlane::kZx, Vec3(1.23456 + 5.0, 7.65432, 0.5));
   const Ticks at = Rounded(place, 1e-3);
-  const auto center = RoundedCenter({arc, {place, place}}, at, at, 3);
+  const auto center = RoundedCenter({arc, {place, place}}, at, at, 1e-3);
   ASSERT_TRUE(center);
   EXPECT_EQ((*center)[1], 0);
   EXPECT_NEAR(static_cast<double>((*center)[2]), -5000.0, 1.0);
@@ -89,10 +89,10 @@ TEST(RoundedCenter, RefusesWhatRoundingSpoils) {
   const auto at = [](double angle) { return Vec3(std::cos(angle), std::sin(angle), 0.0); };
   for (const double turn : {1e-4, 3e-3, 5e-3}) {
     const ArcEnds ends{at(0.0), at(turn)};
-    EXPECT_FALSE(RoundedCenter({arc, ends}, Rounded(ends.from, 1e-3), Rounded(ends.to, 1e-3), 3)) << turn;
+    EXPECT_FALSE(RoundedCenter({arc, ends}, Rounded(ends.from, 1e-3), Rounded(ends.to, 1e-3), 1e-3)) << turn;
   }
   const ArcEnds good{at(0.0), at(1.0)};
-  EXPECT_TRUE(RoundedCenter({arc, good}, Rounded(good.from, 1e-3), Rounded(good.to, 1e-3), 3));
+  EXPECT_TRUE(RoundedCenter({arc, good}, Rounded(good.from, 1e-3), Rounded(good.to, 1e-3), 1e-3));
 }
 
 }  // namespace

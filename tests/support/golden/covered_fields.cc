@@ -21,11 +21,10 @@ const std::set<std::string> kNotAsked = {
     "GenerateProgramRequest.validate_only",
     "GenerateProgramRequest.request_id",
     "GenerateProgramRequest.max_threads",
+    "GenerateProgramRequest.tessellation_chord_mm",
     // UNIMPLEMENTED.
-    "Tool.holder",
-    "Post.program_number",
     "Post.spindle_dwell_s",
-    "LengthUnit.LENGTH_UNIT_INCH",
+    // An error.
     "LengthUnit.LENGTH_UNIT_METER",
 };
 
