@@ -1,35 +1,93 @@
 #include "cam/plan/drawing.h"
 
 #include <algorithm>
+#include <cmath>
 
+#include "cam/verify/surface_cells.h"
 #include "core/base/status.h"
 
 namespace patchmill {
+namespace {
 
-double DefaultChord(const Surface& surface) {
-  constexpr double kLeast = 1e-4;  // mm
-  return std::max(kLeast, surface.box.Diagonal() / 2000.0);
+constexpr double kLeastChord = 1e-4;   // mm
+constexpr double kSquares = 20'000.0;  // that cover the surface where a program is drawn
+constexpr int kMostDoublings = 40;     // of the default chord
+
+absl::StatusOr<double> DefaultChord(const Surface& surface, MeshParams params, const RunContext& run) {
+  params.chord = std::max(kLeastChord, surface.box.Diagonal() / 2000.0);
+  absl::Status few = CheckTriangles(surface, params, run);
+  for (int k = 0; k < kMostDoublings && absl::IsResourceExhausted(few); ++k) {
+    params.chord *= 2.0;
+    few = CheckTriangles(surface, params, run);
+  }
+  PM_RETURN_IF_ERROR(few);
+  return params.chord;
 }
 
-absl::StatusOr<SurfaceDrawing> DrawSurface(const Surface& surface, double chord, const RegionMap* map,
-                                           const std::optional<BallMotion>& ball, const RunContext& run) {
+void Combine(std::vector<double>& all, const std::vector<double>& more, bool least) {
+  for (std::size_t i = 0; i < all.size(); ++i)
+    all[i] = least ? std::min(all[i], more[i]) : std::max(all[i], more[i]);
+}
+
+absl::StatusOr<MotionAtPoints> MeasureWays(const std::vector<Vec3>& points,
+                                           const std::vector<std::vector<BallMotion>>& ways,
+                                           const RunContext& run) {
+  std::optional<MotionAtPoints> worst;
+  for (const std::vector<BallMotion>& balls : ways) {
+    std::optional<MotionAtPoints> way;
+    for (const BallMotion& ball : balls) {
+      PM_ASSIGN_OR_RETURN(MotionAtPoints one, MeasureAt(points, ball, run));
+      if (way) {
+        Combine(way->leftover, one.leftover, true);
+        Combine(way->gouge, one.gouge, false);
+      } else {
+        way = std::move(one);
+      }
+    }
+    if (!way) continue;
+    if (worst) {
+      Combine(worst->leftover, way->leftover, false);
+      Combine(worst->gouge, way->gouge, false);
+    } else {
+      worst = std::move(way);
+    }
+  }
+  return worst ? *std::move(worst) : MotionAtPoints();
+}
+
+}  // namespace
+
+absl::Status CheckChord(const Surface& surface, double chord, const RunContext& run) {
   MeshParams params;
   params.chord = chord;
-  if (map != nullptr && map->cells > 0) {
-    params.label_cells = map->cells;
-    params.label = [map](PieceId piece, double u, double v) {
+  return CheckTriangles(surface, params, run);
+}
+
+absl::StatusOr<SurfaceDrawing> DrawSurface(const Surface& surface, const DrawingParams& params,
+                                           const RunContext& run) {
+  MeshParams mesh;
+  if (!params.ways.empty())
+    mesh.longest_edge = std::max(kLeastChord, std::sqrt(RoughArea(surface) / kSquares));
+  if (params.chord) {
+    mesh.chord = *params.chord;
+  } else {
+    PM_ASSIGN_OR_RETURN(mesh.chord, DefaultChord(surface, mesh, run));
+  }
+  if (const RegionMap* const map = params.map; map != nullptr && map->cells > 0) {
+    mesh.label_cells = map->cells;
+    mesh.label = [map](PieceId piece, double u, double v) {
       return map->At({piece, u, v, Vec3::Zero()}).value;
     };
   }
   SurfaceDrawing drawing;
-  drawing.chord = chord;
-  PM_ASSIGN_OR_RETURN(drawing.mesh, MakeSurfaceMesh(surface, params, run));
-  if (!ball) return drawing;
+  drawing.chord = mesh.chord;
+  PM_ASSIGN_OR_RETURN(drawing.mesh, MakeSurfaceMesh(surface, mesh, run));
+  if (params.ways.empty()) return drawing;
   std::vector<Vec3> points;
   for (const PieceTriangles& piece : drawing.mesh) {
     for (const MeshVertex& vertex : piece.vertices) points.push_back(vertex.at.p);
   }
-  PM_ASSIGN_OR_RETURN(drawing.motion, MeasureAt(points, *ball, run));
+  PM_ASSIGN_OR_RETURN(drawing.motion, MeasureWays(points, params.ways, run));
   return drawing;
 }
 

@@ -14,18 +14,29 @@
 
 namespace patchmill {
 
+struct DrawingParams {
+  // mm, > 0: distance between triangles and surface. Absent: a 2000th of the diagonal of the surface's box,
+  // or twice that and so on until there are few enough triangles.
+  std::optional<double> chord;
+  const RegionMap* map = nullptr;  // null: no regions
+  // The program, in every way it may run, each as the motions of its balls. Empty: no program.
+  std::vector<std::vector<BallMotion>> ways;
+};
+
 struct SurfaceDrawing {
-  double chord = 0.0;                // mm, distance between triangles and surface
+  double chord = 0.0;                // mm
   std::vector<PieceTriangles> mesh;  // placed frame; labels are ids of regions
-  // What a program leaves at the vertices, those of all pieces in a row; absent without a program.
+  // What the program leaves at the vertices, those of all pieces in a row: what the best of its tools leaves,
+  // and the deepest gouge of all, in the worst of its ways. Absent without a program.
   std::optional<MotionAtPoints> motion;
 };
 
-// mm: the chord where a request states none, a 2000th of the diagonal of the surface's box.
-double DefaultChord(const Surface& surface);
+// OK if there are few enough triangles for this chord (CheckTriangles).
+absl::Status CheckChord(const Surface& surface, double chord, const RunContext& run);
 
-// `map` null: no regions. `ball` absent: no program. Errors as MakeSurfaceMesh and MeasureAt.
-absl::StatusOr<SurfaceDrawing> DrawSurface(const Surface& surface, double chord, const RegionMap* map,
-                                           const std::optional<BallMotion>& ball, const RunContext& run);
+// With a program, cells are at most as wide as the side of one of 20,000 squares that cover the surface, so
+// that flat areas have vertices too. Errors as MakeSurfaceMesh and MeasureAt.
+absl::StatusOr<SurfaceDrawing> DrawSurface(const Surface& surface, const DrawingParams& params,
+                                           const RunContext& run);
 
 }  // namespace patchmill

@@ -430,7 +430,7 @@ absl::StatusOr<JobResult> PlanAndJudge(const Surface& surface, const Job& job, c
   }
   const VerifyParams verify = MakeVerifyParams(job, resolved, parts.parts);
   // As many moves as were written: CheckMotion has bounded them.
-  const std::size_t most_moves = std::max(ReaderParams().max_moves, 20 * result.motion.toolpath.moves.size());
+  const std::size_t most_moves = MostMovesOf(result.motion);
   PM_ASSIGN_OR_RETURN(VerifiedProgram program,
                       PostAndVerify(context, result.posted, post, verify, most_moves));
   clock.Done("verify");
@@ -480,6 +480,10 @@ absl::StatusOr<JobResult> PlanAndJudge(const Surface& surface, const Job& job, c
 }
 
 }  // namespace
+
+std::size_t MostMovesOf(const LinkResult& motion) {
+  return std::max(ReaderParams().max_moves, 20 * motion.toolpath.moves.size());
+}
 
 absl::StatusOr<VerifyReport> VerifyProgramText(const Surface& surface, const Tool& tool,
                                                std::string_view text, const VerifyParams& params,

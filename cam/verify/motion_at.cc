@@ -13,12 +13,12 @@ absl::StatusOr<MotionAtPoints> MeasureAt(std::span<const Vec3> points, const Bal
                                          const RunContext& run) {
   const Vec3 offset = ball.program_zero + Vec3(0.0, 0.0, ball.ball_radius);
   const double radius = ball.ball_radius + ball.leave;
-  const SegmentTree feeds(CollectMoves(ball.motion, MotionSet::kCut, offset), Metric::kPath, radius, run);
-  const SegmentTree swept(CollectMoves(ball.motion, MotionSet::kSwept, offset), Metric::kSwept, radius, run);
+  const SegmentTree feeds(CollectMoves(*ball.motion, MotionSet::kCut, offset), Metric::kPath, radius, run);
+  const SegmentTree swept(CollectMoves(*ball.motion, MotionSet::kSwept, offset), Metric::kSwept, radius, run);
   PM_RETURN_IF_ERROR(run.Check());
   Box3 box;
   for (const Vec3& p : points) box.Add(p);
-  for (const ProgramMove& move : ball.motion.moves) {
+  for (const ProgramMove& move : ball.motion->moves) {
     if (!move.to_above) box.Add(Vec3(move.to + offset));
   }
   const double most = box.Diagonal();

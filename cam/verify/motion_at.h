@@ -13,10 +13,10 @@
 namespace patchmill {
 
 struct BallMotion {
-  const ProgramMotion& motion;
-  Vec3 program_zero = Vec3::Zero();  // mm, in the frame of the points
-  double ball_radius = 3.0;          // mm
-  double leave = 0.0;                // mm, stock to leave
+  const ProgramMotion* motion = nullptr;  // required
+  Vec3 program_zero = Vec3::Zero();       // mm, in the frame of the points
+  double ball_radius = 3.0;               // mm
+  double leave = 0.0;                     // mm, stock to leave
 };
 
 // Of each point, mm. `leftover`: its distance from the nearest feed of the ball's centre, less R, which is

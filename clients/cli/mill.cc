@@ -152,12 +152,14 @@ bool CarriesProgram(const v1::Report& report) {
 // Report and picture of a failed job are written, its program is not.
 absl::Status WriteFiles(const MillOptions& options, Received& received) {
   received.report_file.Set(Json(received.report));
+  absl::StatusOr<std::string> page = std::string();
   if (received.page.wanted()) {
     received.scene.report = received.report;
-    absl::StatusOr<std::string> page = MakePage(received.scene);
-    if (!page.ok()) return page.status();
-    received.page.Set(*std::move(page));
+    page = MakePage(received.scene);
+    if (page.ok()) received.page.Set(*std::move(page));
   }
+  // A page that cannot be made keeps nothing else from being written.
+  if (!page.ok()) received.page = OutputFile();
   if (const absl::Status written = Commit({&received.report_file, &received.picture, &received.page});
       !written.ok())
     return written;
@@ -178,7 +180,8 @@ absl::Status WriteFiles(const MillOptions& options, Received& received) {
   if (received.program.size() != static_cast<std::size_t>(received.report.program_size_bytes())) {
     return absl::DataLossError("the program did not arrive whole; nothing was written");
   }
-  return received.program.Commit();
+  if (const absl::Status written = received.program.Commit(); !written.ok()) return written;
+  return page.status();
 }
 
 // ", 4.1 m less if --allowance states the stock"; empty if that would save little.

@@ -90,7 +90,7 @@ std::string ColorOf(const v1::Region& region) {
 void AddRegions(const v1::RegionMap& map, Struct& header) {
   ListValue& list = NewList(header, "regions");
   for (const v1::Region& region : map.regions()) {
-    const bool unreached = region.unreachable_reason() != v1::UNREACHABLE_REASON_UNSPECIFIED;
+    const bool unreached = region.kind() == v1::REGION_KIND_UNREACHABLE;
     Struct& item = *list.add_values()->mutable_struct_value();
     Set(item, "id", region.id());
     std::string name = fmt::format("{} ", region.id());
@@ -469,6 +469,7 @@ absl::StatusOr<std::string> MakePage(const Scene& scene) {
   *In(header, "buffers").mutable_struct_value() = buffers.table();
   // No text of a client may end the script that holds the header.
   const std::string json = absl::StrReplaceAll(SortedJson(header), {{"<", "\\u003c"}});
+  if (json.empty()) return absl::InternalError("the scene of the 3-D page has a text that is not UTF-8");
   constexpr std::string_view kScene = "@PATCHMILL_SCENE@", kData = "@PATCHMILL_DATA@";
   const std::string_view page = ViewerPage();
   const std::size_t scene_at = page.find(kScene), data_at = page.find(kData);

@@ -208,7 +208,7 @@ std::string SortedJson(const google::protobuf::Struct& object) {
           "type.googleapis.com", google::protobuf::DescriptorPool::generated_pool()));
   const auto status = google::protobuf::util::BinaryToJsonString(
       types.get(), "type.googleapis.com/google.protobuf.Struct", bytes, &text);
-  return status.ok() ? text : std::string("{}");
+  return status.ok() ? text : std::string();
 }
 
 }  // namespace patchmill::cli

@@ -56,7 +56,7 @@ std::string WireText(std::string_view text, std::size_t most);
 std::string Json(const google::protobuf::Message& message);
 // JSON on one line with only the fields that are set. For models.
 std::string ShortJson(const google::protobuf::Message& message);
-// JSON on one line, members sorted by name.
+// JSON on one line, members sorted by name; empty if a text in it is not UTF-8.
 std::string SortedJson(const google::protobuf::Struct& object);
 
 }  // namespace patchmill::cli

@@ -184,8 +184,8 @@ std::string MapPath(const std::string& path, const char* ending) {
 // What the page shows before the answer comes.
 Scene BareScene(const VerifyOptions& options, const v1::VerifyProgramRequest& request) {
   Scene scene;
-  scene.title = fmt::format("{} on {}", std::filesystem::path(options.program).filename().string(),
-                            std::filesystem::path(options.model).filename().string());
+  const auto name = [](const std::string& path) { return std::filesystem::path(path).filename().string(); };
+  scene.title = WireText(fmt::format("{} on {}", name(options.program), name(options.model)), 200);
   scene.setup = request.setup();
   scene.tool = request.tools(0);
   scene.tolerance = options.tolerance;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <optional>
 #include <unordered_map>
 
 #include "core/base/error_details.h"
@@ -14,52 +15,87 @@
 namespace patchmill {
 namespace {
 
-constexpr int kMostHalvings = 5;  // of a cell in which the label changes
+constexpr int kMostHalvings = 5;     // of a cell along one axis, where the label changes
+constexpr int kMostCells = 1 << 15;  // along one axis of a piece, before labels divide them
+constexpr double kUpright = 1e-6;    // z of a normal that may point to either side
+constexpr double kBesideRim = 1e-3;  // of the way to the middle of the piece
 
-// A square of the finest grid: its lower corner and its width, in steps of that grid.
-struct Square {
-  int i = 0, j = 0, width = 1;
+// The longest of three lines of the piece along an axis, mm.
+double LengthAlong(const Piece& piece, bool along_u) {
+  constexpr int kSteps = 8;
+  double longest = 0.0;
+  for (const double other : {0.0, 0.5, 1.0}) {
+    const auto at = [&](double t) { return along_u ? Position(piece, t, other) : Position(piece, other, t); };
+    double length = 0.0;
+    for (int k = 0; k < kSteps; ++k) length += (at((k + 1.0) / kSteps) - at(double(k) / kSteps)).norm();
+    longest = std::max(longest, length);
+  }
+  return longest;
+}
+
+GridCells CellsOf(const Piece& piece, const MeshParams& params) {
+  GridCells cells = CellsWithin(piece, params.chord, kMostCells);
+  if (params.longest_edge < kInfinity) {
+    const auto enough = [&](bool along_u) {
+      const double count = std::ceil(LengthAlong(piece, along_u) / params.longest_edge);
+      return static_cast<int>(std::min(count, static_cast<double>(kMostCells)));
+    };
+    cells.u = std::max(cells.u, enough(true));
+    cells.v = std::max(cells.v, enough(false));
+  }
+  return cells;
+}
+
+// A rectangle of the finest grid: its lower corner and its sides, in steps of that grid.
+struct Rect {
+  int i = 0, j = 0, wide = 1, high = 1;
 };
 
-// Makes the triangles of one piece. The grid of cells is divided by halves into a finest grid; vertices lie
-// on that.
+// Makes the triangles of one piece. The cells are divided by halves into a finest grid; vertices lie on that.
 class PieceMesher {
  public:
-  PieceMesher(const Surface& surface, PieceId id, const MeshParams& params)
-      : piece_(surface.piece(id)), params_(params) {
+  PieceMesher(const Surface& surface, PieceId id, const MeshParams& params, bool divide,
+              const RunContext& run)
+      : piece_(surface.piece(id)),
+        params_(params),
+        run_(run),
+        cells_(CellsOf(piece_, params)),
+        wide_(divide ? Parts(cells_.u) : 1),
+        high_(divide ? Parts(cells_.v) : 1),
+        steps_u_(cells_.u * wide_),
+        steps_v_(cells_.v * high_) {
     mesh_.piece = id;
-    const GridCells cells = CellsWithin(piece_, params.chord, params.max_cells);
-    cells_ = cells;
-    if (params.label) {
-      while (halvings_ < kMostHalvings && (std::max(cells.u, cells.v) << halvings_) < params.label_cells)
-        ++halvings_;
-    }
-    width_ = 1 << halvings_;
-    steps_u_ = cells.u * width_;
-    steps_v_ = cells.v * width_;
   }
 
   PieceTriangles Make() {
-    for (int i = 0; i < cells_.u; ++i) {
-      for (int j = 0; j < cells_.v; ++j) Divide({i * width_, j * width_, width_});
+    for (int i = 0; i < cells_.u && !run_.Cancelled(); ++i) {
+      for (int j = 0; j < cells_.v; ++j) Divide({i * wide_, j * high_, wide_, high_});
     }
-    for (const Square& square : squares_) AddCorners(square);
-    for (const Square& square : squares_) AddTriangles(square);
+    for (std::size_t k = 0; k < rects_.size() && !Stopped(k); ++k) AddCorners(rects_[k]);
+    for (std::size_t k = 0; k < rects_.size() && !Stopped(k); ++k) AddTriangles(rects_[k]);
     return std::move(mesh_);
   }
 
  private:
+  bool Stopped(std::size_t k) const { return k % 1024 == 0 && run_.Cancelled(); }
+
+  // Parts of a cell along an axis of so many cells, so that they are as fine as the labels.
+  int Parts(int cells) const {
+    int parts = 1;
+    while (params_.label && parts < (1 << kMostHalvings) && cells * parts < params_.label_cells) parts *= 2;
+    return parts;
+  }
   double U(double i) const { return i / steps_u_; }
   double V(double j) const { return j / steps_v_; }
 
-  // Whether all cells of the label grid whose centres lie in the square have the label of its middle.
-  bool HasOneLabel(const Square& s) const {
+  // Whether all cells of the label grid whose centres lie in the rectangle have the label of its middle.
+  bool HasOneLabel(const Rect& s) const {
     const int n = params_.label_cells;
     const auto first = [&](double share) { return static_cast<int>(std::ceil(share * n - 0.5)); };
     const auto end = [&](double share) { return static_cast<int>(std::floor(share * n - 0.5)) + 1; };
-    const int middle = LabelAt(s.i + 0.5 * s.width, s.j + 0.5 * s.width);
-    for (int k = std::max(0, first(U(s.i))); k < std::min(n, end(U(s.i + s.width))); ++k) {
-      for (int l = std::max(0, first(V(s.j))); l < std::min(n, end(V(s.j + s.width))); ++l) {
+    const int middle = LabelAt(s.i + 0.5 * s.wide, s.j + 0.5 * s.high);
+    for (int k = std::max(0, first(U(s.i))); k < std::min(n, end(U(s.i + s.wide))); ++k) {
+      for (int l = std::max(0, first(V(s.j))); l < std::min(n, end(V(s.j + s.high))); ++l) {
         if (params_.label(mesh_.piece, (k + 0.5) / n, (l + 0.5) / n) != middle) return false;
       }
     }
@@ -69,24 +105,33 @@ class PieceMesher {
     return params_.label ? params_.label(mesh_.piece, U(i), V(j)) : -1;
   }
 
-  void Divide(const Square& s) {
-    if (s.width == 1 || !params_.label || HasOneLabel(s)) {
-      squares_.push_back(s);
+  void Divide(const Rect& s) {
+    if ((s.wide == 1 && s.high == 1) || HasOneLabel(s)) {
+      rects_.push_back(s);
       return;
     }
-    const int half = s.width / 2;
-    for (const int i : {s.i, s.i + half}) {
-      for (const int j : {s.j, s.j + half}) Divide({i, j, half});
+    const int wide = std::max(1, s.wide / 2), high = std::max(1, s.high / 2);
+    for (int i = s.i; i < s.i + s.wide; i += wide) {
+      for (int j = s.j; j < s.j + s.high; j += high) Divide({i, j, wide, high});
     }
   }
 
   std::int64_t Key(int i, int j) const { return static_cast<std::int64_t>(i) * (steps_v_ + 1) + j; }
 
+  // The upward normal; on a rim where it may point to either side, to that of the surface beside it.
+  std::optional<Vec3> NormalAt(double u, double v, const SurfaceJet& jet) const {
+    const auto normal = UpwardNormal(jet);
+    if (!normal || std::abs(normal->z()) > kUpright) return normal;
+    const SurfaceJet beside = Evaluate(piece_, u + kBesideRim * (0.5 - u), v + kBesideRim * (0.5 - v));
+    const auto towards = UpwardNormal(beside);
+    return towards && towards->dot(*normal) < 0.0 ? std::optional<Vec3>(-*normal) : normal;
+  }
+
   std::uint32_t Add(double u, double v) {
     const SurfaceJet jet = Evaluate(piece_, u, v);
     MeshVertex vertex;
     vertex.at = {mesh_.piece, u, v, jet.p};
-    if (const auto normal = UpwardNormal(jet)) {
+    if (const auto normal = NormalAt(u, v, jet)) {
       vertex.normal = *normal;
       vertex.slope = std::acos(std::clamp(normal->z(), -1.0, 1.0));
       const double curvature = ContourCurvature(jet, Forms(jet, *normal));
@@ -96,36 +141,37 @@ class PieceMesher {
     return static_cast<std::uint32_t>(mesh_.vertices.size() - 1);
   }
 
-  void AddCorners(const Square& s) {
-    for (const int i : {s.i, s.i + s.width}) {
-      for (const int j : {s.j, s.j + s.width}) {
+  void AddCorners(const Rect& s) {
+    for (const int i : {s.i, s.i + s.wide}) {
+      for (const int j : {s.j, s.j + s.high}) {
         const auto [place, added] = corners_.try_emplace(Key(i, j), 0u);
         if (added) place->second = Add(U(i), V(j));
       }
     }
   }
 
-  // The corners on the border of the square, those of its neighbours included, counter-clockwise.
-  std::vector<std::uint32_t> BorderOf(const Square& s) const {
+  // The corners on the border of the rectangle, those of its neighbours included, counter-clockwise.
+  std::vector<std::uint32_t> BorderOf(const Rect& s) const {
     std::vector<std::uint32_t> border;
-    constexpr int kSteps[4][2] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}};
+    const std::array<std::array<int, 3>, 4> sides = {
+        {{1, 0, s.wide}, {0, 1, s.high}, {-1, 0, s.wide}, {0, -1, s.high}}};
     int i = s.i, j = s.j;
-    for (const auto& step : kSteps) {
-      for (int k = 0; k < s.width; ++k, i += step[0], j += step[1]) {
+    for (const auto& [di, dj, steps] : sides) {
+      for (int k = 0; k < steps; ++k, i += di, j += dj) {
         if (const auto at = corners_.find(Key(i, j)); at != corners_.end()) border.push_back(at->second);
       }
     }
     return border;
   }
 
-  void AddTriangles(const Square& s) {
+  void AddTriangles(const Rect& s) {
     const std::vector<std::uint32_t> border = BorderOf(s);
     if (border.size() == 4) {
       AddTriangle(border[0], border[1], border[2]);
       AddTriangle(border[0], border[2], border[3]);
       return;
     }
-    const std::uint32_t middle = Add(U(s.i + 0.5 * s.width), V(s.j + 0.5 * s.width));
+    const std::uint32_t middle = Add(U(s.i + 0.5 * s.wide), V(s.j + 0.5 * s.high));
     for (std::size_t k = 0; k < border.size(); ++k)
       AddTriangle(border[k], border[(k + 1) % border.size()], middle);
   }
@@ -140,32 +186,53 @@ class PieceMesher {
 
   const Piece& piece_;
   const MeshParams& params_;
-  GridCells cells_;
-  int halvings_ = 0, width_ = 1;  // of a cell, and its width in steps of the finest grid
-  int steps_u_ = 1, steps_v_ = 1;
-  std::vector<Square> squares_;
+  const RunContext& run_;
+  const GridCells cells_;
+  const int wide_, high_;  // sides of a cell, in steps of the finest grid
+  const int steps_u_, steps_v_;
+  std::vector<Rect> rects_;
   std::unordered_map<std::int64_t, std::uint32_t> corners_;  // by Key: looked up only, never walked
   PieceTriangles mesh_;
 };
 
-}  // namespace
-
-absl::StatusOr<std::vector<PieceTriangles>> MakeSurfaceMesh(const Surface& surface, const MeshParams& params,
-                                                            const RunContext& run) {
+// The triangles of all pieces; absent if there are more than `most_triangles`.
+absl::StatusOr<std::optional<std::vector<PieceTriangles>>> MakeAll(const Surface& surface,
+                                                                   const MeshParams& params, bool divide,
+                                                                   const RunContext& run) {
   std::vector<PieceTriangles> pieces(surface.pieces.size());
   std::atomic<std::size_t> triangles{0};
   const auto too_many = [&] { return triangles.load() > params.most_triangles; };
   PM_RETURN_IF_ERROR(ParallelFor(run, "triangles", pieces.size(), [&](std::size_t k) {
     if (too_many()) return;
-    pieces[k] = PieceMesher(surface, PieceId(k), params).Make();
+    pieces[k] = PieceMesher(surface, PieceId(k), params, divide, run).Make();
     triangles += pieces[k].triangles.size();
   }));
-  // How many were made until then depends on the threads, so the message leaves it out.
-  if (too_many()) {
-    const auto limit = static_cast<double>(params.most_triangles);
-    return LimitPassedError({"triangles", limit, limit + 1.0}, "use a larger chord");
-  }
+  if (too_many()) return std::nullopt;
   return pieces;
+}
+
+}  // namespace
+
+absl::Status CheckTriangles(const Surface& surface, const MeshParams& params, const RunContext& run) {
+  std::vector<double> counts(surface.pieces.size());
+  PM_RETURN_IF_ERROR(ParallelFor(run, nullptr, counts.size(), [&](std::size_t k) {
+    const GridCells cells = CellsOf(surface.pieces[k], params);
+    counts[k] = 2.0 * cells.u * cells.v;
+  }));
+  double count = 0.0;
+  for (const double c : counts) count += c;
+  const auto limit = static_cast<double>(params.most_triangles);
+  if (count <= limit) return absl::OkStatus();
+  return LimitPassedError({"triangles", limit, count}, "use a larger chord");
+}
+
+absl::StatusOr<std::vector<PieceTriangles>> MakeSurfaceMesh(const Surface& surface, const MeshParams& params,
+                                                            const RunContext& run) {
+  PM_RETURN_IF_ERROR(CheckTriangles(surface, params, run));
+  PM_ASSIGN_OR_RETURN(auto fine, MakeAll(surface, params, true, run));
+  if (fine) return *std::move(fine);
+  PM_ASSIGN_OR_RETURN(auto coarse, MakeAll(surface, params, false, run));
+  return *std::move(coarse);
 }
 
 }  // namespace patchmill

@@ -15,7 +15,9 @@ namespace patchmill {
 
 struct MeshVertex {
   SurfacePoint at;
-  Vec3 normal = Vec3::Zero();      // unit, to the side from which the tool comes; zero where degenerate
+  // Unit, to the side from which the tool comes; zero where degenerate. On the rim of a sheet, where the
+  // surface becomes vertical and either side may count, it is that of the surface beside the rim.
+  Vec3 normal = Vec3::Zero();
   double slope = 0.0;              // rad, between the normal and +Z, [0, pi]
   double contour_curvature = 0.0;  // 1/mm, > 0 where contours bend inward; 0 where the surface is level
 };
@@ -34,19 +36,23 @@ struct PieceTriangles {
 
 struct MeshParams {
   double chord = 0.01;  // mm, > 0: distance between triangles and surface, estimated (CellsWithin)
-  int max_cells = 512;  // per side of a piece, before labels divide them
+  double longest_edge = kInfinity;         // mm, > 0: of the sides of cells, estimated
+  std::size_t most_triangles = 1'000'000;  // of the whole surface
   // The label at a place of a piece's parameters. It is constant in each cell of a grid of `label_cells` x
   // `label_cells` over the piece. If empty, all labels are -1.
   std::function<int(PieceId, double u, double v)> label = nullptr;
-  int label_cells = 1;                     // >= 1
-  std::size_t most_triangles = 4'000'000;  // of the whole surface
+  int label_cells = 1;  // >= 1
 };
 
-// The triangles of each piece, in order. Cells in which the label changes are divided, so that borders of
-// labels are as fine as the grid of labels, or a 32nd of a cell. The triangles of a piece leave no gaps;
-// those of neighbouring pieces may, by at most the chord. RESOURCE_EXHAUSTED ("triangles") for more than
-// `most_triangles`; CANCELLED and DEADLINE_EXCEEDED from `run`. Cost about 1 us per vertex.
+// The triangles of each piece, in order. Cells in which the label changes are divided along both axes, down
+// to the grid of labels or a 32nd of a cell, unless that would make more than `most_triangles`. The
+// triangles of a piece leave no gaps; those of neighbouring pieces may, by at most the chord.
+// RESOURCE_EXHAUSTED ("triangles") if there are more than `most_triangles` without any label, before any is
+// made; CANCELLED and DEADLINE_EXCEEDED from `run`. Cost about 1 us per vertex.
 absl::StatusOr<std::vector<PieceTriangles>> MakeSurfaceMesh(const Surface& surface, const MeshParams& params,
                                                             const RunContext& run);
+
+// OK if MakeSurfaceMesh with these parameters keeps `most_triangles`. Cost some microseconds per piece.
+absl::Status CheckTriangles(const Surface& surface, const MeshParams& params, const RunContext& run);
 
 }  // namespace patchmill

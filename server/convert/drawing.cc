@@ -151,6 +151,7 @@ bool EmitPathBlocks(const ProgramMotion& motion, const std::function<bool(v1::Pa
     if (!move.from_above) top = std::max(top, move.from.z());
     if (!move.to_above) top = std::max(top, move.to.z());
   }
+  if (!std::isfinite(top)) top = 0.0;  // nothing moves below machine zero
   const auto drawn = [&](const Vec3& p, bool above) { return above ? Vec3(p.x(), p.y(), top) : p; };
   BlockEmitter blocks(emit);
   const auto add = [&](const ProgramMove& move, const Vec3& to, double length) {

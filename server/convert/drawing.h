@@ -13,7 +13,7 @@
 
 namespace patchmill {
 
-// The chord of a request's triangles, mm; `asked` is 0 where it states none.
+// The chord of a request's triangles, mm.
 double ReadChord(double asked, FieldErrors& errors);
 
 // Face.id of each patch, or its own id, or empty.

@@ -71,24 +71,22 @@ struct Wanted {
 absl::Status MakeMesh(const Surface& surface, const Job& job, const Wanted& wanted, const RunContext& run,
                       Made* made) {
   const JobResult& result = made->result;
+  DrawingParams params;
+  params.chord = wanted.chord;
+  params.map = &result.regions;
   std::optional<ProgramMotion> motion;
   if (!result.program.empty()) {
-    PM_ASSIGN_OR_RETURN(
-        motion, ReadProgram(result.program,
-                            {.max_moves = std::max(ReaderParams().max_moves, 20 * result.posted.moves.size()),
-                             .run = &run,
-                             .dialect = job.dialect,
-                             .control_deviation = job.control_deviation}));
+    PM_ASSIGN_OR_RETURN(motion, ReadProgram(result.program, {.max_moves = MostMovesOf(result.motion),
+                                                             .run = &run,
+                                                             .dialect = job.dialect,
+                                                             .control_deviation = job.control_deviation}));
   }
-  std::optional<BallMotion> ball;
   if (motion)
-    ball.emplace(BallMotion{*motion, result.program_zero, made->resolved.radius, job.operation.leave});
-  PM_ASSIGN_OR_RETURN(
-      const SurfaceDrawing drawing,
-      DrawSurface(surface, wanted.chord.value_or(DefaultChord(surface)), &result.regions, ball, run));
+    params.ways = {{BallMotion{&*motion, result.program_zero, made->resolved.radius, job.operation.leave}}};
+  PM_ASSIGN_OR_RETURN(const SurfaceDrawing drawing, DrawSurface(surface, params, run));
   EmitMesh(drawing, surface, result.program_zero, [&](v1::MeshBlock block) {
     made->mesh.push_back(std::move(block));
-    return true;
+    return !run.Cancelled();
   });
   return absl::OkStatus();
 }
@@ -99,6 +97,7 @@ absl::Status Make(PreparedJob& prepared, const Wanted& wanted, const RunContext&
                       BuildPlacedSurface(std::move(prepared.model.model), prepared.job.setup, run));
   made->face_ids = FaceIds(surface.network.model);
   PM_ASSIGN_OR_RETURN(made->resolved, Resolve(surface, prepared.job, run));
+  if (wanted.mesh && wanted.chord) PM_RETURN_IF_ERROR(CheckChord(surface, *wanted.chord, run));
   PM_ASSIGN_OR_RETURN(made->result, RunJob(surface, prepared.job, run));
   if (made->result.program.size() > limits::kMaxProgramBytes) {
     return LimitError("program_size_bytes", static_cast<double>(limits::kMaxProgramBytes),

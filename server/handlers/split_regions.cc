@@ -39,6 +39,7 @@ absl::Status HandleSplitRegions(const Call& call, const v1::SplitRegionsRequest&
     PM_ASSIGN_OR_RETURN(const Surface surface,
                         BuildPlacedSurface(std::move(prepared.model.model), job.setup, run));
     PM_ASSIGN_OR_RETURN(const Resolved resolved, Resolve(surface, job, run));
+    if (chord) PM_RETURN_IF_ERROR(CheckChord(surface, *chord, run));
     PM_ASSIGN_OR_RETURN(const ChosenRegions regions, PlanRegions(surface, job, run));
     AddDiagnostics(UnusedSettings(job.operation), resolved.program_zero, response->mutable_diagnostics());
     AddDiagnostics(job.model_remarks, resolved.program_zero, response->mutable_diagnostics());
@@ -55,12 +56,11 @@ absl::Status HandleSplitRegions(const Call& call, const v1::SplitRegionsRequest&
       picture.set_data(DrawRegions(surface, regions, resolved, job.operation.steep_angle, prepared.name));
     }
     if (outputs.contains(v1::OUTPUT_TESSELLATION)) {
-      PM_ASSIGN_OR_RETURN(
-          const SurfaceDrawing drawing,
-          DrawSurface(surface, chord.value_or(DefaultChord(surface)), &regions.map, std::nullopt, run));
+      const DrawingParams params{.chord = chord, .map = &regions.map, .ways = {}};
+      PM_ASSIGN_OR_RETURN(const SurfaceDrawing drawing, DrawSurface(surface, params, run));
       EmitMesh(drawing, surface, resolved.program_zero, [&](v1::MeshBlock block) {
         *response->add_mesh() = std::move(block);
-        return true;
+        return !run.Cancelled();
       });
     }
     return absl::OkStatus();

@@ -290,6 +290,53 @@ void FillFromMotion(const ProgramMotion& motion, v1::Report* report) {
   report->set_time_basis("not estimated");
 }
 
+// A tool, and its own moves.
+struct ToolMotion {
+  const Tool* tool = nullptr;
+  ProgramMotion moves;
+};
+absl::StatusOr<std::vector<ToolMotion>> MovesByTool(const Judging& by, const ProgramMotion& motion) {
+  const std::vector<int> numbers = ToolsOf(motion);
+  std::vector<ToolMotion> moves;
+  if (by.tools.size() == 1 || numbers.size() < 2) {
+    PM_ASSIGN_OR_RETURN(const Tool* tool, ToolOf(by, numbers.empty() ? -1 : numbers.front(), motion));
+    moves.push_back({tool, motion});
+    return moves;
+  }
+  for (const int number : numbers) {
+    PM_ASSIGN_OR_RETURN(const Tool* tool, ToolOf(by, number, motion));
+    moves.push_back({tool, MovesOfTool(motion, number)});
+  }
+  return moves;
+}
+
+// The triangles, with what the program leaves whether its lines with / run or not.
+absl::Status MakeMesh(const Judging& by, const Wanted& wanted, const ProgramMotion& motion,
+                      ProgramText program, Answer* answer) {
+  PM_ASSIGN_OR_RETURN(const Resolved resolved, Resolve(by.surface, by.job, by.run));
+  std::vector<std::vector<ToolMotion>> ways(1);
+  PM_ASSIGN_OR_RETURN(ways.front(), MovesByTool(by, motion));
+  if (motion.has_deletable_lines) {
+    program.params.run_deletable_lines = false;
+    PM_ASSIGN_OR_RETURN(const ProgramMotion without, Read(program));
+    PM_ASSIGN_OR_RETURN(std::vector<ToolMotion> skipped, MovesByTool(by, without));
+    ways.push_back(std::move(skipped));
+  }
+  DrawingParams params;
+  params.chord = wanted.chord;
+  for (const std::vector<ToolMotion>& way : ways) {
+    std::vector<BallMotion>& balls = params.ways.emplace_back();
+    for (const ToolMotion& one : way)
+      balls.push_back({&one.moves, resolved.program_zero, BallRadius(*one.tool), by.job.operation.leave});
+  }
+  PM_ASSIGN_OR_RETURN(const SurfaceDrawing drawing, DrawSurface(by.surface, params, by.run));
+  EmitMesh(drawing, by.surface, resolved.program_zero, [&](v1::MeshBlock block) {
+    answer->mesh.push_back(std::move(block));
+    return !by.run.Cancelled();
+  });
+  return absl::OkStatus();
+}
+
 absl::Status Make(const Call& call, const v1::VerifyProgramRequest& request, const VerifyJob& what,
                   const RunContext& run, Answer* answer) {
   v1::Report* report = &answer->report;
@@ -299,13 +346,14 @@ absl::Status Make(const Call& call, const v1::VerifyProgramRequest& request, con
   PM_RETURN_IF_ERROR(RequireSound(model));
   PM_RETURN_IF_ERROR(run.Check());
   const ProgramText program = TextOf(request, job, what.tools.size(), run);
-  PM_ASSIGN_OR_RETURN(const ProgramMotion motion, Read(program));
+  PM_ASSIGN_OR_RETURN(ProgramMotion motion, Read(program));
   PM_RETURN_IF_ERROR(run.Check());
   PM_ASSIGN_OR_RETURN(UprightModel upright, MakeUpright(std::move(model), job.setup, run));
   job.setup = std::move(upright.setup);
   PM_ASSIGN_OR_RETURN(const Surface surface,
                       BuildPlacedSurface(std::move(upright.model.model), job.setup, run));
   PM_ASSIGN_OR_RETURN(const Resolved resolved, Resolve(surface, job, run));
+  if (what.wanted.mesh && what.wanted.chord) PM_RETURN_IF_ERROR(CheckChord(surface, *what.wanted.chord, run));
   const Judging by{surface, what.tools, job, request.has_scallop_mm(), request.leftover_map(), run};
   PM_ASSIGN_OR_RETURN(const VerifyReport verify, JudgeWays(by, motion, program));
   FillFromVerifier(verify, resolved.program_zero, request.has_scallop_mm(), report);
@@ -322,17 +370,8 @@ absl::Status Make(const Call& call, const v1::VerifyProgramRequest& request, con
   AddDiagnostics(HeaderRemarks(upright.model.remarks), resolved.program_zero, report->mutable_diagnostics());
   AddDiagnostics(WallsWithoutSide(surface), resolved.program_zero, report->mutable_diagnostics());
   AddDiagnostics(verify.findings, resolved.program_zero, report->mutable_diagnostics());
-  if (what.wanted.mesh) {
-    const BallMotion ball{motion, resolved.program_zero, resolved.radius, job.operation.leave};
-    PM_ASSIGN_OR_RETURN(
-        const SurfaceDrawing drawing,
-        DrawSurface(surface, what.wanted.chord.value_or(DefaultChord(surface)), nullptr, ball, run));
-    EmitMesh(drawing, surface, resolved.program_zero, [&](v1::MeshBlock block) {
-      answer->mesh.push_back(std::move(block));
-      return true;
-    });
-  }
-  if (what.wanted.path_blocks) answer->motion = motion;
+  if (what.wanted.mesh) PM_RETURN_IF_ERROR(MakeMesh(by, what.wanted, motion, program, answer));
+  if (what.wanted.path_blocks) answer->motion = std::move(motion);
   if (!request.leftover_map()) return absl::OkStatus();
   constexpr double kLimit = 0.1;  // mm, of the colours where no scallop is given
   const double limit = request.has_scallop_mm() ? request.scallop_mm() + request.tolerance_mm() : kLimit;

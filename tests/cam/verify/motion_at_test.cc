@@ -22,7 +22,7 @@ ProgramMove Straight(ProgramMove::Kind kind, const Vec3& from, const Vec3& to) {
 
 MotionAtPoints Measure(const std::vector<Vec3>& points, const ProgramMotion& motion, const Vec3& zero,
                        double leave) {
-  auto at = MeasureAt(points, {motion, zero, kR, leave}, RunContext(2));
+  auto at = MeasureAt(points, {&motion, zero, kR, leave}, RunContext(2));
   EXPECT_TRUE(at.ok()) << at.status();
   return *std::move(at);
 }

@@ -1,7 +1,10 @@
 #include "core/surface/surface_mesh.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
+#include <set>
 #include <utility>
 
 #include <gtest/gtest.h>
@@ -36,8 +39,8 @@ int Quarter(PieceId, double u, double v) {
 
 class EverySurfaceMesh : public ::testing::TestWithParam<testing::NamedModel> {};
 
-// Each edge inside a piece has a triangle on either side; an edge with one triangle lies on the piece's
-// border.
+// Each side of a triangle inside a piece is a side of another triangle, the other way round. Sides at a pole
+// count by their places, because triangles without an area are left out there.
 TEST_P(EverySurfaceMesh, IsClosedWithinEachPieceAndLiesOnTheSurface) {
   const Surface s = MakeSurface(GetParam().model);
   for (const bool labels : {false, true}) {
@@ -47,26 +50,42 @@ TEST_P(EverySurfaceMesh, IsClosedWithinEachPieceAndLiesOnTheSurface) {
       params.label_cells = kLabelCells;
     }
     for (const PieceTriangles& piece : Mesh(s, params)) {
-      std::map<std::pair<std::uint32_t, std::uint32_t>, int> sides;
-      double covered = 0.0;  // of the unit square of parameters
+      using Place = std::array<double, 3>;
+      const auto place = [&](std::uint32_t v) {
+        const Vec3& p = piece.vertices[v].at.p;
+        const auto micro = [](double x) { return std::round(x * 1e9) * 1e-9 + 0.0; };  // poles are rounded
+        return Place{micro(p.x()), micro(p.y()), micro(p.z())};
+      };
+      // The four borders, by places: at a pole, all of one border is a place of its neighbours.
+      std::array<std::set<Place>, 4> borders;
+      for (std::uint32_t v = 0; v < piece.vertices.size(); ++v) {
+        const SurfacePoint& at = piece.vertices[v].at;
+        for (const auto& [border, on] :
+             {std::pair{0u, at.u == 0.0}, {1u, at.u == 1.0}, {2u, at.v == 0.0}, {3u, at.v == 1.0}})
+          if (on) borders[border].insert(place(v));
+      }
+      const auto on_border = [&](std::uint32_t a, std::uint32_t b) {
+        return std::any_of(borders.begin(), borders.end(), [&](const std::set<Place>& border) {
+          return border.contains(place(a)) && border.contains(place(b));
+        });
+      };
+      std::map<std::pair<Place, Place>, int> open;  // sides inside the piece without their other triangle
       for (const MeshTriangle& t : piece.triangles) {
-        for (std::size_t k = 0; k < 3; ++k) ++sides[{t.vertices[k], t.vertices[(k + 1) % 3]}];
         const SurfacePoint &a = piece.vertices[t.vertices[0]].at, &b = piece.vertices[t.vertices[1]].at,
                            &c = piece.vertices[t.vertices[2]].at;
-        const double area = 0.5 * ((b.u - a.u) * (c.v - a.v) - (c.u - a.u) * (b.v - a.v));
-        EXPECT_GT(area, 0.0) << "turned round or empty";
-        covered += area;
+        EXPECT_GT((b.u - a.u) * (c.v - a.v) - (c.u - a.u) * (b.v - a.v), 0.0) << "turned round or empty";
+        for (std::size_t k = 0; k < 3; ++k) {
+          const std::uint32_t from = t.vertices[k], to = t.vertices[(k + 1) % 3];
+          if (on_border(from, to)) continue;
+          const auto other = open.find({place(to), place(from)});
+          if (other == open.end()) {
+            ++open[{place(from), place(to)}];
+          } else if (--other->second == 0) {
+            open.erase(other);
+          }
+        }
       }
-      for (const auto& [side, count] : sides) {
-        EXPECT_EQ(count, 1);
-        if (sides.contains({side.second, side.first})) continue;
-        const SurfacePoint &a = piece.vertices[side.first].at, &b = piece.vertices[side.second].at;
-        const bool border =
-            (a.u == b.u && (a.u == 0.0 || a.u == 1.0)) || (a.v == b.v && (a.v == 0.0 || a.v == 1.0));
-        const bool collapsed = covered < 1.0 - 1e-9;  // triangles without an area are left out
-        EXPECT_TRUE(border || collapsed) << a.u << ' ' << a.v << " to " << b.u << ' ' << b.v;
-      }
-      EXPECT_LE(covered, 1.0 + 1e-9);
+      EXPECT_TRUE(open.empty()) << open.size() << " open sides";
       for (const MeshVertex& vertex : piece.vertices)
         EXPECT_LT((vertex.at.p - Position(s.piece(piece.piece), vertex.at.u, vertex.at.v)).norm(), 1e-11);
     }
@@ -112,6 +131,58 @@ TEST(SurfaceMesh, OfASphereHasItsAreaSlopeAndCurvature) {
   }
   EXPECT_LT(area, 4.0 * kPi * kR * kR);
   EXPECT_GT(area, 4.0 * kPi * (kR - 2.0 * kChord) * (kR - 2.0 * kChord));
+}
+
+// The upper half alone: the normal points outward everywhere, on the rim too, and contours bend outward.
+TEST(SurfaceMesh, OfAHemisphereLooksOutwardOnItsRimToo) {
+  const Vec3 center(1, 2, 3);
+  constexpr double kR = 7.0;
+  const Surface s = MakeSurface(testing::Sphere(center, kR, testing::Half::kUpper));
+  int on_rim = 0;
+  for (const PieceTriangles& piece : Mesh(s, {.chord = 0.01})) {
+    for (const MeshVertex& vertex : piece.vertices) {
+      if (vertex.normal.isZero()) continue;
+      const Vec3 out = (vertex.at.p - center) / kR;
+      EXPECT_GT(vertex.normal.dot(out), 0.999999) << out.transpose();
+      if (std::hypot(out.x(), out.y()) > 1e-3) {
+        EXPECT_NEAR(vertex.contour_curvature, -1.0 / kR, 1e-6);
+      }
+      on_rim += std::abs(out.z()) < 1e-9;
+    }
+  }
+  EXPECT_GT(on_rim, 10);
+}
+
+// A long trough: its cells are fine across and coarse along, and a label at its end has its area all the
+// same.
+TEST(SurfaceMesh, LabelsOfLongPiecesHaveTheirArea) {
+  const Surface s = MakeSurface(testing::Cylinder(Vec3::Zero(), 40.0, 150.0, testing::Half::kUpper));
+  const auto label = [](PieceId, double u, double v) {
+    const auto cell = [](double t) { return std::min(kLabelCells - 1, static_cast<int>(t * kLabelCells)); };
+    return cell(u) < 2 || cell(v) < 2 ? 1 : 0;  // strips along two sides
+  };
+  for (const PieceTriangles& piece : Mesh(s, {.chord = 0.05, .label = label, .label_cells = kLabelCells})) {
+    double all = 0.0, strips = 0.0;
+    for (const MeshTriangle& t : piece.triangles) {
+      const double area = AreaOf(piece, t);
+      all += area;
+      if (t.label == 1) strips += area;
+    }
+    const double share = 1.0 - (62.0 / 64.0) * (62.0 / 64.0);  // of the parameters
+    EXPECT_NEAR(strips / all, share, 0.5 * share);
+  }
+}
+
+TEST(SurfaceMesh, SidesAreAsShortAsAsked) {
+  const Surface s = MakeSurface(testing::Plane(50.0));
+  for (const PieceTriangles& piece : Mesh(s, {.chord = 1.0, .longest_edge = 3.0})) {
+    for (const MeshTriangle& t : piece.triangles) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Vec3 way = piece.vertices[t.vertices[k]].at.p - piece.vertices[t.vertices[(k + 1) % 3]].at.p;
+        EXPECT_LE(way.norm(), 3.0 * std::sqrt(2.0) + 1e-9);
+      }
+    }
+  }
 }
 
 // A plane is two triangles; only the line between labels is fine.
