@@ -1,0 +1,384 @@
+// The page: a part comes in, is checked and divided into regions at once, and becomes a program.
+import { byId, press } from "../../viewer/src/page_elements";
+import type { SplitRegionsResponse } from "../gen/patchmill/v1/analysis_service_pb.js";
+import type { Diagnostic } from "../gen/patchmill/v1/diagnostic_pb.js";
+import { Severity } from "../gen/patchmill/v1/diagnostic_pb.js";
+import type { CheckModelResponse } from "../gen/patchmill/v1/model_service_pb.js";
+import { analysis, LatestCall, models, toolpaths } from "./calls";
+import { programName } from "./downloads";
+import { Form } from "./form";
+import type { Clicked } from "./frame/api";
+import { runJob } from "./job";
+import { type Finished, ProgressView, ResultPanel, showProblem } from "./job_panel";
+import { clearPart, showPart, upNotes } from "./part_panel";
+import { PickLists } from "./pick_lists";
+import { type Problem, problemOf } from "./problems";
+import { endingOf, knownEndings, makeCheck, makeProgram, makeSplit, type ModelFile } from "./request";
+import { colorOf, type PackedScene, packScene, regionName } from "./scene";
+import { Choice, commandOf, settings } from "./settings";
+import { marksOf, placeText, type Surface, surfacesOf } from "./surfaces";
+import { bytesText } from "./text";
+import { View } from "./view";
+
+const maxFileBytes = 64 * 2 ** 20 - 4096; // a request has 64 MiB, and not all of it is the file
+const debounceMs = 350;
+
+const choice = new Choice();
+const placement = ["up", "scale", "zero", "translate", "skip-face"];
+const checkNames = [...placement, "tool-diameter"];
+const splitNames = settings.filter((s) => s.group !== "program").map((s) => s.name);
+const allNames = settings.map((s) => s.name);
+
+let file: ModelFile | null = null;
+let check: CheckModelResponse | null = null;
+let split: SplitRegionsResponse | null = null;
+let map: PackedScene | null = null;
+let surfaces: Surface[] = [];
+let problem: Problem | null = null;
+let clickMode = "look";
+let keys = { check: "", split: "", job: "" };
+let timer = 0;
+let isRunning = false;
+
+const checkCall = new LatestCall();
+const splitCall = new LatestCall();
+const jobCall = new LatestCall();
+
+const view = new View({ onClick, onFile: (f) => void open(f), onTheme: setDark });
+const form = new Form(choice, changed);
+const lists = new PickLists(choice, changed);
+const results = new ResultPanel((isProgram) => showScene(isProgram ? (results.finished?.scene ?? null) : map, isProgram), (e) => tell(problemOf(e, "The download")));
+
+function tell(next: Problem | null): void {
+  problem = next;
+  showProblem(problem, (name) => form.goTo(name));
+  form.mark(problem);
+}
+
+function setState(id: string, text: string, isBad = false): void {
+  byId(id).textContent = text;
+  byId(id).dataset.tone = isBad ? "bad" : "";
+}
+
+// Settings
+
+function changed(name: string): void {
+  history.replaceState(null, "", `#${choice.toHash()}`);
+  refresh();
+  if (name === "only" || name === "avoid") view.api?.shade("marks");
+}
+
+// Shows the settings everywhere, and asks anew for what depends on them.
+function refresh(): void {
+  form.fill();
+  lists.fill();
+  showMarks();
+  showCommand();
+  if (problem !== null) tell(null);
+  results.setStale(keys.job !== choice.keyOf(allNames));
+  window.clearTimeout(timer);
+  timer = window.setTimeout(update, debounceMs);
+}
+
+function showMarks(): void {
+  view.mark(marksOf(surfaces, choice), choice.list("only").length === 0);
+}
+
+function showCommand(): void {
+  const name = file?.name ?? "part.step";
+  byId("command").textContent = commandOf(choice, name, programName(name, choice.get("post")));
+}
+
+function update(): void {
+  if (file === null) return;
+  const checkKey = choice.keyOf(checkNames);
+  if (checkKey !== keys.check) {
+    keys.check = checkKey;
+    void runCheck(file);
+  }
+  const splitKey = choice.keyOf(splitNames);
+  if (splitKey !== keys.split) {
+    keys.split = splitKey;
+    void runSplit(file);
+  }
+}
+
+// The part
+
+async function open(chosen: File): Promise<void> {
+  jobCall.cancel();
+  checkCall.cancel();
+  splitCall.cancel();
+  file = check = split = map = null;
+  surfaces = [];
+  keys = { check: "", split: "", job: "" };
+  view.clear();
+  clearPart();
+  results.set(null);
+  lists.setSurfaces([], false);
+  lists.setRegions([]);
+  setState("split-state", "");
+  tell(null);
+  byId("file-name").textContent = chosen.name;
+  byId("file-name").title = chosen.name;
+  byId<HTMLButtonElement>("start").disabled = true;
+  if (!knownEndings.includes(endingOf(chosen.name))) {
+    setState("check-state", "");
+    const text = `"${chosen.name}" has no ending that Patchmill reads.`;
+    tell({ title: "The part was not read", items: [{ setting: null, field: "", text }], advice: `Choose a file that ends in ${knownEndings.map((e) => `.${e}`).join(", ")}.` });
+    return;
+  }
+  if (chosen.size > maxFileBytes) {
+    setState("check-state", "");
+    const text = `"${chosen.name}" has ${bytesText(chosen.size)}; a request has at most 64 MiB.`;
+    tell({ title: "The part was not read", items: [{ setting: null, field: "", text }], advice: "Export less of the part, or export it without facets." });
+    return;
+  }
+  try {
+    file = { name: chosen.name, bytes: new Uint8Array(await chosen.arrayBuffer()) };
+  } catch (error) {
+    tell(problemOf(error, "Reading the file"));
+    return;
+  }
+  byId<HTMLButtonElement>("start").disabled = false;
+  document.title = `${chosen.name} \u2013 Patchmill`;
+  showCommand();
+  update();
+}
+
+async function runCheck(of: ModelFile): Promise<void> {
+  setState("check-state", "The part is checked \u2026");
+  try {
+    const answer = await checkCall.run(async (signal) => models.checkModel(makeCheck(of, choice), { signal }));
+    if (answer === null) return;
+    check = answer;
+    const errors = check.diagnostics.filter((d) => d.severity === Severity.ERROR).length;
+    setState("check-state", errors === 0 ? "" : `The part cannot be milled: it has ${errors} errors.`, errors > 0);
+    showPart(check, showPlace);
+    form.describeUp(upNotes(check));
+    setSurfaces();
+  } catch (error) {
+    setState("check-state", "The part was not checked.", true);
+    tell(problemOf(error, "Checking the part"));
+  }
+}
+
+function showPlace({ code, message }: Diagnostic): void {
+  if (results.finished !== null) {
+    results.showsRegions();
+    void showScene(map, false).then(() => view.api?.findPlace(code, message));
+  } else view.api?.findPlace(code, message);
+}
+
+function setSurfaces(): void {
+  surfaces = surfacesOf(check, split, map?.surfaces ?? []);
+  lists.setSurfaces(surfaces, (check?.faces.length ?? 0) > 0);
+  showMarks();
+}
+
+// The regions
+
+async function runSplit(of: ModelFile): Promise<void> {
+  setState("split-state", "Regions are computed \u2026");
+  const start = performance.now();
+  try {
+    const request = makeSplit(of, choice);
+    const answer = await splitCall.run((signal) => analysis.splitRegions(request, { signal }));
+    if (answer === null) return;
+    split = answer;
+    const { setup, operations, name } = request.job!;
+    const operation = operations[0]!;
+    map = packScene({
+      title: name,
+      version: "",
+      setup,
+      tool: operation.tool,
+      tolerance: operation.toleranceMm,
+      scallop: operation.scallopMm,
+      steepAngle: operation.steepAngleDeg ?? 45,
+      regions: answer.regions,
+      mesh: answer.mesh,
+      paths: [],
+      program: null,
+      report: null,
+      findings: answer.diagnostics,
+    });
+    const regions = answer.regions?.regions ?? [];
+    lists.setRegions(regions.filter((r) => r.insidePoint !== undefined).map((r) => ({ id: r.id, place: placeText(r.insidePoint!), name: regionName(r), color: colorOf(r) })));
+    setSurfaces();
+    const seconds = ((performance.now() - start) / 1000).toFixed(1);
+    setState("split-state", `${regions.length} ${regions.length === 1 ? "region" : "regions"}, computed in ${seconds} s`);
+    if (!isRunning && !(results.finished !== null && keys.job === choice.keyOf(allNames))) {
+      results.showsRegions();
+      await showScene(map, false);
+    }
+  } catch (error) {
+    setState("split-state", "No regions: see below.", true);
+    if (problem === null) tell(problemOf(error, "Computing the regions"));
+  }
+}
+
+async function showScene(scene: PackedScene | null, isProgram: boolean): Promise<void> {
+  if (scene === null) return;
+  byId("tools").dataset.view = isProgram ? "program" : "part";
+  try {
+    await view.show(scene, isProgram);
+    if (!isProgram) showMarks();
+  } catch (error) {
+    tell(problemOf(error, "The 3-D view"));
+  }
+}
+
+function onClick({ surface, region }: Clicked): void {
+  if (clickMode === "region") {
+    if (region !== null) lists.toggleRegion(region);
+    return;
+  }
+  const found = surfaces.find((s) => s.name === surface);
+  if (found === undefined) return;
+  if (clickMode === "up") {
+    if (!found.isPlane) {
+      tell({ title: "The part is not turned", items: [{ setting: "up", field: "", text: `${found.name} is not a plane face.` }], advice: "Click a plane face, or choose an axis." });
+      return;
+    }
+    choice.set("up", found.selector);
+    changed("up");
+  } else if (clickMode === "mill" || clickMode === "avoid") {
+    lists.toggle(found.selector, clickMode === "mill" ? "only" : "avoid");
+  }
+}
+
+function setClickMode(mode: string): void {
+  clickMode = mode;
+  for (const button of document.querySelectorAll<HTMLElement>("[data-click]")) press(button, button.dataset.click === mode);
+  view.setPicking(mode !== "look");
+  if (mode === "look") return;
+  if (results.finished !== null && map !== null && byId("tools").dataset.view === "program") {
+    results.showsRegions();
+    void showScene(map, false).then(() => shadeFor(mode));
+  } else shadeFor(mode);
+  if (mode !== "up") byId<HTMLDetailsElement>("area-box").open = true;
+}
+
+const shadeFor = (mode: string): void => view.api?.shade(mode === "region" ? "region" : "marks");
+
+// The job
+
+async function start(): Promise<void> {
+  if (file === null || isRunning) return;
+  const of = file;
+  tell(null);
+  let progress: ProgressView | null = null;
+  try {
+    const request = makeProgram(of, choice);
+    setRunning(true);
+    results.set(null);
+    progress = new ProgressView();
+    const result = await jobCall.run((signal) => runJob(request, signal, (p) => progress?.show(p)));
+    if (result === null) return;
+    const operation = request.job!.operations[0]!;
+    const source = {
+      title: request.job!.name,
+      tool: operation.tool,
+      tolerance: operation.toleranceMm,
+      scallop: operation.scallopMm,
+      steepAngle: operation.steepAngleDeg ?? 45,
+      findings: result.report.diagnostics,
+    };
+    const scene = result.mesh.length === 0 ? null : packScene({ ...source, ...result });
+    const finished: Finished = { result, scene, file: of.name, dialect: choice.get("post") };
+    // The messages are as large as the scene, and the scene has all of them.
+    [result.mesh, result.paths] = [[], []];
+    keys.job = choice.keyOf(allNames);
+    results.set(finished);
+    await showScene(scene, true);
+  } catch (error) {
+    tell(problemOf(error, "The job"));
+  } finally {
+    progress?.end();
+    setRunning(false);
+  }
+}
+
+function setRunning(on: boolean): void {
+  isRunning = on;
+  byId<HTMLButtonElement>("start").disabled = on || file === null;
+  byId("cancel").hidden = !on;
+}
+
+function cancel(): void {
+  jobCall.cancel();
+  setState("split-state", "The job was cancelled. Nothing of it is kept.");
+}
+
+// The page itself
+
+function setDark(isDark: boolean): void {
+  document.documentElement.dataset.theme = isDark ? "dark" : "light";
+  byId("dark").textContent = isDark ? "Light" : "Dark";
+  view.setDark(isDark);
+}
+
+function followFiles(): void {
+  const input = byId<HTMLInputElement>("file");
+  input.addEventListener("change", () => {
+    const chosen = input.files?.[0];
+    if (chosen !== undefined) void open(chosen);
+    input.value = ""; // the same file may be chosen again
+  });
+  document.addEventListener("dragover", (event) => {
+    event.preventDefault();
+    document.body.classList.add("dropping");
+  });
+  document.addEventListener("dragleave", (event) => {
+    if (event.relatedTarget === null) document.body.classList.remove("dropping");
+  });
+  document.addEventListener("drop", (event) => {
+    event.preventDefault();
+    document.body.classList.remove("dropping");
+    const dropped = event.dataTransfer?.files[0];
+    if (dropped !== undefined) void open(dropped);
+  });
+}
+
+function readAddress(): void {
+  const unknown = choice.fromHash(location.hash);
+  if (unknown.length > 0) {
+    const text = `The address has settings that do not exist: ${unknown.join(", ").slice(0, 200)}. They are left out.`;
+    tell({ title: "The address", items: [{ setting: null, field: "", text }], advice: "" });
+  }
+  form.fill();
+  lists.fill();
+  showCommand();
+}
+
+async function loadPosts(): Promise<void> {
+  try {
+    const { posts } = await toolpaths.listPosts({});
+    form.setPosts(posts);
+  } catch (error) {
+    tell(problemOf(error, "Asking patchmilld for its dialects"));
+  }
+}
+
+const darkQuery = matchMedia("(prefers-color-scheme: dark)");
+setDark(darkQuery.matches);
+darkQuery.addEventListener("change", () => setDark(darkQuery.matches));
+byId("dark").addEventListener("click", () => setDark(document.documentElement.dataset.theme !== "dark"));
+byId("reset").addEventListener("click", () => {
+  choice.clear();
+  changed("");
+});
+for (const button of document.querySelectorAll<HTMLElement>("[data-click]")) button.addEventListener("click", () => setClickMode(button.dataset.click!));
+byId("settings").addEventListener("submit", (event) => {
+  event.preventDefault();
+  void start();
+});
+byId("cancel").addEventListener("click", cancel);
+window.addEventListener("hashchange", () => {
+  readAddress();
+  refresh();
+});
+followFiles();
+readAddress();
+void loadPosts();

@@ -1,0 +1,67 @@
+// What is known of the part: its size, what each axis shows, and the findings.
+import { byId, make } from "../../viewer/src/page_elements";
+import type { Diagnostic } from "../gen/patchmill/v1/diagnostic_pb.js";
+import { Severity } from "../gen/patchmill/v1/diagnostic_pb.js";
+import type { CheckModelResponse } from "../gen/patchmill/v1/model_service_pb.js";
+import { UpAxis } from "../gen/patchmill/v1/setup_pb.js";
+import { brief, fixed, placeOf, severityName } from "./text";
+
+const mostFindings = 200; // rows
+const toneOf = (severity: Severity): string => (severity === Severity.ERROR ? "bad" : severity === Severity.WARNING ? "warn" : "plain");
+
+export function findingRow(finding: Diagnostic, show: ((finding: Diagnostic) => void) | null): HTMLElement {
+  const row = make("li");
+  row.dataset.tone = toneOf(finding.severity);
+  const place = placeOf(finding);
+  row.append(make("b", "", severityName(finding.severity)), make("code", "", finding.code + (place === "" ? "" : `, ${place}`)), make("p", "", finding.message));
+  if (finding.where?.point !== undefined && show !== null) {
+    const button = make("button", "", "Show the place");
+    button.type = "button";
+    button.addEventListener("click", () => show(finding));
+    row.append(button);
+  }
+  return row;
+}
+
+const upNames: Partial<Record<UpAxis, string>> = { [UpAxis.Z]: "z", [UpAxis.Y]: "y", [UpAxis.X]: "x", [UpAxis.NEG_Z]: "-z", [UpAxis.NEG_Y]: "-y", [UpAxis.NEG_X]: "-x" };
+
+// What each axis would show, by the name of the axis.
+export function upNotes({ upDirections, bestUp }: CheckModelResponse): Map<string, string> {
+  const notes = new Map<string, string>();
+  for (const { up, facingAreaMm2, hiddenAreaMm2 } of upDirections) {
+    const seen = brief(Math.max(0, facingAreaMm2 - hiddenAreaMm2), 3);
+    notes.set(upNames[up] ?? "", `${seen} mm2 seen${up === bestUp ? ", most" : ""}`);
+  }
+  return notes;
+}
+
+export function showPart(check: CheckModelResponse, show: (finding: Diagnostic) => void): void {
+  const { box, diagnostics } = check;
+  const rows: [string, string][] = [];
+  if (box?.min !== undefined && box.max !== undefined) {
+    const [a, b] = [box.min, box.max];
+    const size = [b.xMm - a.xMm, b.yMm - a.yMm, b.zMm - a.zMm].map((v) => fixed(v, 2)).join(" \u00d7 ");
+    rows.push(["size", `${size} mm`], ["Z", `${fixed(a.zMm, 2)} to ${fixed(b.zMm, 2)} mm`]);
+    byId("sum-part").textContent = `${size} mm`;
+  } else byId("sum-part").textContent = "cannot be used";
+  rows.push([check.faceCount > 0 ? "faces, patches" : "patches", check.faceCount > 0 ? `${check.faceCount}, ${check.patchCount}` : String(check.patchCount)]);
+  if (check.minConcaveRadiusMm !== undefined) rows.push(["smallest inner radius", `${brief(check.minConcaveRadiusMm)} mm`]);
+  byId("size").replaceChildren(...rows.flatMap(([n, v]) => [make("dt", "", n), make("dd", "", v)]));
+  byId("size").hidden = false;
+
+  const count = (severity: Severity): number => diagnostics.filter((d) => d.severity === severity).length;
+  const [errors, warnings] = [count(Severity.ERROR), count(Severity.WARNING)];
+  const sorted = [...diagnostics].sort((a, b) => b.severity - a.severity);
+  const items = sorted.slice(0, mostFindings).map((d) => findingRow(d, show));
+  if (sorted.length > mostFindings) items.push(make("li", "soft", `${sorted.length - mostFindings} more are not listed.`));
+  byId("findings").replaceChildren(...items);
+  byId("findings-title").textContent = `Findings: ${errors} errors, ${warnings} warnings, ${diagnostics.length - errors - warnings} notes`;
+  byId("findings-box").hidden = diagnostics.length === 0;
+  if (errors > 0) byId<HTMLDetailsElement>("findings-box").open = true;
+}
+
+export function clearPart(): void {
+  byId("size").hidden = true;
+  byId("findings-box").hidden = true;
+  byId("sum-part").textContent = "";
+}

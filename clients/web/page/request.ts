@@ -1,0 +1,290 @@
+// Makes the requests. They are those of the command line (clients/cli/job_options.cc, mill.cc), field by field, so that the
+// same settings give the same bytes of a program.
+import { create } from "@bufbuild/protobuf";
+import { type SplitRegionsRequest, SplitRegionsRequestSchema } from "../gen/patchmill/v1/analysis_service_pb.js";
+import { Point3Schema } from "../gen/patchmill/v1/geometry_pb.js";
+import { type Job, JobSchema, Output, type Post, PostSchema } from "../gen/patchmill/v1/job_pb.js";
+import { type ModelSource, ModelSourceSchema } from "../gen/patchmill/v1/model_pb.js";
+import { type CheckModelRequest, CheckModelRequestSchema } from "../gen/patchmill/v1/model_service_pb.js";
+import {
+  BoundaryMode,
+  CutDirection,
+  EdgeRule,
+  type Operation,
+  OperationSchema,
+  type RegionOverride,
+  RegionOverrideSchema,
+  type Selection,
+  SelectionSchema,
+  Strategy,
+} from "../gen/patchmill/v1/operation_pb.js";
+import { type Obstacle, ObstacleSchema, type Setup, SetupSchema, type Stock, StockSchema, UpAxis, ZeroAnchor } from "../gen/patchmill/v1/setup_pb.js";
+import { Coolant, type Tool, ToolSchema } from "../gen/patchmill/v1/tool_pb.js";
+import { type GenerateProgramRequest, GenerateProgramRequestSchema } from "../gen/patchmill/v1/toolpath_service_pb.js";
+import type { Choice } from "./settings";
+import { flagOf, mustNumber, numberOf, numbersOf, ringOf, SettingError, wireText } from "./values";
+
+export interface ModelFile {
+  name: string;
+  bytes: Uint8Array;
+}
+
+const statedFormats = ["bpt", "bv", "bez", "patches", "step", "stp", "p21", "iges", "igs"];
+const cadFormats = ["step", "stp", "p21", "iges", "igs"];
+export const knownEndings = [...statedFormats, "json", "pb"];
+
+export const endingOf = (name: string): string => /\.([^./\\]+)$/.exec(name)?.[1]?.toLowerCase() ?? "";
+export const isCad = (name: string): boolean => cadFormats.includes(endingOf(name));
+
+export function makeSource(file: ModelFile, choice: Choice): ModelSource {
+  const ending = endingOf(file.name);
+  const skipped = choice.list("skip-face").map((id) => wireText(id, 200));
+  return create(ModelSourceSchema, {
+    source: {
+      case: "file",
+      value: {
+        content: file.bytes,
+        // Others are known by their content.
+        format: statedFormats.includes(ending) ? ending : "",
+        ...(skipped.length === 0 ? {} : { importOptions: { skipFaces: skipped } }),
+      },
+    },
+  });
+}
+
+const axes: Record<string, UpAxis> = { auto: UpAxis.AUTO, z: UpAxis.Z, y: UpAxis.Y, x: UpAxis.X, "-z": UpAxis.NEG_Z, "-y": UpAxis.NEG_Y, "-x": UpAxis.NEG_X };
+const anchors: Record<string, ZeroAnchor> = { origin: ZeroAnchor.ORIGIN, "top-center": ZeroAnchor.TOP_CENTER, "bottom-corner": ZeroAnchor.BOTTOM_CORNER };
+
+const pointOf = ([xMm = 0, yMm = 0, zMm = 0]: number[]) => ({ xMm, yMm, zMm });
+
+function makeZero(text: string): Setup["zero"] {
+  if (text === "") return { case: undefined };
+  const anchor = anchors[text];
+  if (anchor !== undefined) return { case: "zeroAnchor", value: anchor };
+  const point = pointOf(numbersOf(text, [3], "zero", "origin, top-center, bottom-corner or X,Y,Z"));
+  return { case: "programZero", value: create(Point3Schema, point) };
+}
+
+function makeStock(choice: Choice): Stock | undefined {
+  const topZMm = numberOf(choice, "stock-top");
+  const allowanceMm = numberOf(choice, "allowance");
+  const text = choice.get("stock");
+  if (topZMm === undefined && allowanceMm === undefined && text === "") return undefined;
+  const stock = create(StockSchema, { ...(topZMm === undefined ? {} : { topZMm }), ...(allowanceMm === undefined ? {} : { allowanceMm }) });
+  if (text === "") return stock;
+  const [kind, ...rest] = text.split(",");
+  const wanted = "block, block,MARGIN, cylinder,D or cylinder,D,X,Y";
+  const numbers = rest.length === 0 ? [] : numbersOf(rest.join(","), [1, 2, 3], "stock", wanted);
+  if (kind === "block" && numbers.length <= 1) stock.body = { case: "block", value: { $typeName: "patchmill.v1.BlockStock", marginMm: numbers[0] ?? 0 } };
+  else if (kind === "cylinder" && (numbers.length === 1 || numbers.length === 3)) {
+    stock.body = { case: "cylinder", value: { $typeName: "patchmill.v1.CylinderStock", diameterMm: numbers[0]!, centerXyMm: numbers.slice(1) } };
+  } else throw new SettingError("stock", `"${text.slice(0, 60)}" must be ${wanted}.`);
+  return stock;
+}
+
+// "[NAME=]TOP[,MARGIN]: X,Y X,Y X,Y".
+function makeObstacle(text: string): Obstacle {
+  const colon = text.indexOf(":");
+  const wrong = new SettingError("obstacle", `"${text.slice(0, 60)}" must be NAME=TOP,MARGIN: X,Y X,Y X,Y.`);
+  if (colon < 0) throw wrong;
+  const head = text.slice(0, colon);
+  const equals = head.indexOf("=");
+  const [topZMm = 0, marginMm = 0] = numbersOf(head.slice(equals + 1), [1, 2], "obstacle", "NAME=TOP,MARGIN: X,Y X,Y X,Y");
+  return create(ObstacleSchema, {
+    id: equals < 0 ? "" : wireText(head.slice(0, equals), 200),
+    topZMm,
+    marginMm,
+    outlineXyMm: ringOf(text.slice(colon + 1), "obstacle"),
+  });
+}
+
+// How the model lies.
+function makePlacement(choice: Choice): Setup {
+  const up = choice.get("up");
+  const axis = axes[up];
+  const translate = choice.get("translate");
+  return create(SetupSchema, {
+    ...(axis === undefined ? { upFace: wireText(up, 200) } : { up: axis }),
+    scale: mustNumber(choice, "scale"),
+    ...(translate === "" ? {} : { translation: pointOf(numbersOf(translate, [3], "translate", "X,Y,Z")) }),
+    zero: makeZero(choice.get("zero")),
+  });
+}
+
+function makeSetup(choice: Choice): Setup {
+  const setup = makePlacement(choice);
+  const stock = makeStock(choice);
+  if (stock !== undefined) setup.stock = stock;
+  setup.obstacles = choice.list("obstacle").map(makeObstacle);
+  return setup;
+}
+
+function makeHolder(text: string): { lengthMm: number; lowerDiameterMm: number; upperDiameterMm: number }[] {
+  return text
+    .split(/\s+/)
+    .filter((t) => t !== "")
+    .map((segment) => {
+      const numbers = numbersOf(segment, [2, 3], "holder", "LENGTH,DIAMETER or LENGTH,LOWER,UPPER in mm");
+      return { lengthMm: numbers[0]!, lowerDiameterMm: numbers[1]!, upperDiameterMm: numbers[numbers.length - 1]! };
+    });
+}
+
+const coolants: Record<string, Coolant> = { off: Coolant.OFF, flood: Coolant.FLOOD, mist: Coolant.MIST, air: Coolant.AIR };
+const defaultDiameter = 6;
+
+// Spindle speed and feeds that nobody stated are those of the command line: 12000 rpm, 1200 and 400 mm/min at D 6.
+function makeTool(choice: Choice): Tool {
+  const diameterMm = numberOf(choice, "tool-diameter") ?? defaultDiameter;
+  const number = numberOf(choice, "tool-number");
+  const [spindle, feed, plunge] = [numberOf(choice, "spindle"), numberOf(choice, "feed"), numberOf(choice, "plunge-feed")];
+  const larger = Math.min(1, defaultDiameter / diameterMm);
+  const smaller = Math.min(1, diameterMm / defaultDiameter);
+  const third = feed !== undefined ? feed / 3 : Math.round(1200 * smaller) / 3;
+  const tool = create(ToolSchema, {
+    number: number ?? 1,
+    numberIsDefault: number === undefined,
+    cutter: { case: "ballEnd", value: { diameterMm } },
+    coolant: coolants[choice.get("coolant")] ?? Coolant.OFF,
+    spindleRpm: spindle ?? Math.max(1, Math.round(12000 * larger)),
+    feedMmPerMin: feed ?? Math.max(1, Math.round(1200 * smaller)),
+    plungeFeedMmPerMin: plunge ?? Math.max(1, Math.round(third)),
+    cuttingDataIsDefault: spindle === undefined || feed === undefined || plunge === undefined,
+    holder: makeHolder(choice.get("holder")),
+  });
+  const optional = { fluteLengthMm: "flute-length", shankDiameterMm: "shank-diameter", stickoutMm: "stickout", holderClearanceMm: "holder-clearance" } as const;
+  for (const [field, name] of Object.entries(optional) as [keyof typeof optional, string][]) {
+    const value = numberOf(choice, name);
+    if (value !== undefined) tool[field] = value;
+  }
+  return tool;
+}
+
+const strategies: Record<string, Strategy> = { auto: Strategy.AUTO, contour: Strategy.CONTOUR, zigzag: Strategy.ZIGZAG };
+const directions: Record<string, CutDirection> = { climb: CutDirection.CLIMB, conventional: CutDirection.CONVENTIONAL, either: CutDirection.EITHER };
+const edgeRules: Record<string, EdgeRule> = { stop: EdgeRule.STOP, roll: EdgeRule.ROLL, extend: EdgeRule.EXTEND };
+const modes: Record<string, BoundaryMode> = { contact: BoundaryMode.CONTACT, center: BoundaryMode.CENTER, inside: BoundaryMode.INSIDE, outside: BoundaryMode.OUTSIDE };
+
+function makeSelection(choice: Choice): Selection | undefined {
+  const [only, avoid, boundary] = [choice.list("only"), choice.list("avoid"), choice.list("boundary")];
+  const millOutside = flagOf(choice, "outside");
+  const offset = mustNumber(choice, "boundary-offset");
+  const margin = mustNumber(choice, "avoid-margin");
+  if (boundary.length === 0 && offset !== 0) throw new SettingError("boundary-offset", "The boundary has an offset, but there is no boundary.");
+  if (avoid.length === 0 && margin !== 0) throw new SettingError("avoid-margin", "There is a distance to what is avoided, but nothing is avoided.");
+  if (only.length + avoid.length + boundary.length === 0 && !millOutside) return undefined;
+  const rings = boundary.map((text) => ringOf(text, "boundary"));
+  return create(SelectionSchema, {
+    patchIds: only.map((id) => wireText(id, 200)),
+    avoidPatchIds: avoid.map((id) => wireText(id, 200)),
+    ...(avoid.length === 0 ? {} : { avoidMarginMm: margin }),
+    millOutside,
+    ...(rings.length === 0
+      ? {}
+      : {
+          boundaryXyMm: rings[0]!,
+          moreBoundaryRings: rings.slice(1).map((xyMm) => ({ xyMm })),
+          boundaryMode: modes[choice.get("boundary-mode")] ?? BoundaryMode.CENTER,
+          boundaryOffsetMm: offset,
+        }),
+  });
+}
+
+// "X,Y,Z:WORD[:WORD]".
+function makeOverride(text: string): RegionOverride {
+  const wrong = new SettingError("region", `"${text.slice(0, 60)}" must be X,Y,Z and then :off, or :auto, :contour, :zigzag, :angle=DEG, :scallop=MM.`);
+  const [place = "", ...words] = text.split(":");
+  if (words.length === 0) throw wrong;
+  const change = create(RegionOverrideSchema, { at: pointOf(numbersOf(place, [3], "region", "X,Y,Z:off")) });
+  for (const word of words) {
+    const [name = "", value] = word.split("=", 2);
+    if (value !== undefined) {
+      const [number] = numbersOf(value, [1], "region", "a number");
+      if (name === "angle") change.zigzagAngleDeg = number!;
+      else if (name === "scallop") change.scallopMm = number!;
+      else throw wrong;
+    } else if (name === "off") change.skip = true;
+    else if (name === "oneway" || name === "bothways") change.oneWayLines = name === "oneway";
+    else if (strategies[name] !== undefined) change.strategy = strategies[name]!;
+    else throw wrong;
+  }
+  return change;
+}
+
+function makeOperation(choice: Choice): Operation {
+  const floorZMm = numberOf(choice, "floor");
+  const topZMm = numberOf(choice, "top");
+  const unreached = numberOf(choice, "max-unreached");
+  if (unreached !== undefined && !(unreached >= 0 && unreached <= 100)) {
+    throw new SettingError("max-unreached", `${unreached} must be in [0, 100] percent.`);
+  }
+  const selection = makeSelection(choice);
+  return create(OperationSchema, {
+    tool: makeTool(choice),
+    scallopMm: mustNumber(choice, "scallop"),
+    toleranceMm: mustNumber(choice, "tolerance"),
+    stockToLeaveMm: mustNumber(choice, "leave"),
+    steepAngleDeg: mustNumber(choice, "steep-angle"),
+    strategy: strategies[choice.get("strategy")] ?? Strategy.AUTO,
+    zigzagAngleDeg: mustNumber(choice, "zigzag-angle"),
+    zigzagBendDeg: 20,
+    oneWayLines: flagOf(choice, "one-way"),
+    contourSpirals: flagOf(choice, "spirals"),
+    borderPasses: true,
+    roundLines: true,
+    zigzagAngleAuto: flagOf(choice, "auto-angle"),
+    edgeRule: edgeRules[choice.get("edges")] ?? EdgeRule.STOP,
+    detail: mustNumber(choice, "detail"),
+    contourDirection: directions[choice.get("direction")] ?? CutDirection.CLIMB,
+    heights: {
+      clearanceAboveMm: mustNumber(choice, "clearance"),
+      ...(floorZMm === undefined ? {} : { floorZMm }),
+      ...(topZMm === undefined ? {} : { topZMm }),
+    },
+    acceptDepthMm: mustNumber(choice, "accept-depth"),
+    ...(unreached === undefined ? {} : { maxUnreachedFraction: 0.01 * unreached }),
+    ...(selection === undefined ? {} : { selection }),
+    regionOverrides: choice.list("region").map(makeOverride),
+  });
+}
+
+function makePost(choice: Choice): Post {
+  const step = numberOf(choice, "line-numbers");
+  return create(PostSchema, {
+    dialect: wireText(choice.get("post"), 100),
+    ...(flagOf(choice, "no-arcs") ? { arcs: false } : {}),
+    restartPoints: flagOf(choice, "restart-points"),
+    ...(step === undefined ? {} : { lineNumberStep: step }),
+    programNumber: mustNumber(choice, "program-number"),
+    workOffset: choice.get("work-offset"),
+  });
+}
+
+function makeJob(file: ModelFile, choice: Choice): Job {
+  return create(JobSchema, {
+    source: makeSource(file, choice),
+    setup: makeSetup(choice),
+    operations: [makeOperation(choice)],
+    name: wireText(file.name, 100),
+  });
+}
+
+export function makeCheck(file: ModelFile, choice: Choice): CheckModelRequest {
+  return create(CheckModelRequestSchema, {
+    source: makeSource(file, choice),
+    setup: makePlacement(choice),
+    tool: { cutter: { case: "ballEnd", value: { diameterMm: numberOf(choice, "tool-diameter") ?? defaultDiameter } } },
+    withFaces: true,
+  });
+}
+
+export function makeSplit(file: ModelFile, choice: Choice): SplitRegionsRequest {
+  return create(SplitRegionsRequestSchema, { job: makeJob(file, choice), outputs: [Output.REGIONS, Output.TESSELLATION] });
+}
+
+export function makeProgram(file: ModelFile, choice: Choice): GenerateProgramRequest {
+  return create(GenerateProgramRequestSchema, {
+    job: makeJob(file, choice),
+    post: makePost(choice),
+    outputs: [Output.PROGRESS, Output.PROGRAM, Output.REPORT, Output.PICTURE, Output.REGIONS, Output.PATH_BLOCKS, Output.TESSELLATION],
+  });
+}

@@ -1,0 +1,172 @@
+// The settings of a job: their names, texts and defaults. They are the options of `patchmill mill`, so that an address, a
+// command line and a page mean the same. A value is kept as the text that was typed; nothing is rounded.
+
+export type Kind = "number" | "whole" | "choice" | "flag" | "text" | "lines" | "list";
+export type Group = "part" | "tool" | "finish" | "stock" | "area" | "passes" | "program";
+
+export interface Setting {
+  name: string; // of the option, without dashes
+  group: Group;
+  kind: Kind;
+  label: string;
+  unit?: string;
+  default: string; // "": not stated
+  choices?: readonly (readonly [value: string, label: string])[];
+  hint?: string; // what stands in an empty field
+  help: string;
+  fields?: readonly string[]; // ends of the paths of its fields in the contract
+  isRare?: true; // shown under "More"
+}
+
+const s = (name: string, group: Group, kind: Kind, label: string, rest: Omit<Setting, "name" | "group" | "kind" | "label" | "default"> & { default?: string }): Setting => ({
+  default: "",
+  ...rest,
+  name,
+  group,
+  kind,
+  label,
+});
+
+export const settings: readonly Setting[] = [
+  s("up", "part", "text", "Up", { default: "z", help: "What points up on the machine: an axis of the model, the axis that shows most (auto), or a plane face (f12).", fields: ["setup.up", "up_face"] }),
+  s("scale", "part", "number", "Scale", { default: "1", help: "The model is multiplied by this: 25.4 for a file in inches that does not state its unit.", fields: ["scale"] }),
+  s("zero", "part", "text", "Program zero", { hint: "origin of the model", help: "Point of the part that is X0 Y0 Z0: origin, top-center, bottom-corner, or X,Y,Z. Not stated: the origin, with a warning.", fields: ["program_zero.x_mm", "program_zero.y_mm", "program_zero.z_mm", "zero_anchor"] }),
+  s("translate", "part", "text", "Shift", { hint: "X,Y,Z", unit: "mm", help: "The model is shifted by this after it is scaled and turned.", fields: ["translation.x_mm", "translation.y_mm", "translation.z_mm"], isRare: true }),
+  s("skip-face", "part", "list", "Faces left out", { help: "CAD files: these faces are not read (f12), for instance those that cannot be. The tool keeps off a box around each.", fields: ["skip_faces"], isRare: true }),
+
+  s("tool-diameter", "tool", "number", "Ball diameter", { unit: "mm", hint: "6", help: "Diameter of the ball.", fields: ["ball_end.diameter_mm"] }),
+  s("flute-length", "tool", "number", "Flute length", { unit: "mm", hint: "not stated", help: "Cutting length from the tip. Not stated: it is not checked.", fields: ["flute_length_mm"] }),
+  s("shank-diameter", "tool", "number", "Shank diameter", { unit: "mm", hint: "as the ball", help: "Diameter above the flutes. A wider shank needs the flute length.", fields: ["shank_diameter_mm"] }),
+  s("stickout", "tool", "number", "Stick-out", { unit: "mm", hint: "not stated", help: "Length from the tip to the holder. The report says how much is needed.", fields: ["stickout_mm"] }),
+  s("holder", "tool", "text", "Holder", { hint: "25,32 20,32,50", help: "Segments from below, apart by spaces: LENGTH,DIAMETER, or LENGTH,LOWER,UPPER for a cone, in mm. It needs the stick-out.", fields: ["tool.holder", "holder[0].length_mm"] }),
+  s("spindle", "tool", "number", "Spindle", { unit: "1/min", hint: "12000 at D 6", help: "Spindle speed. Not stated: a default, with a warning.", fields: ["spindle_rpm"] }),
+  s("feed", "tool", "number", "Feed", { unit: "mm/min", hint: "1200 at D 6", help: "Cutting feed. Not stated: a default, with a warning.", fields: ["tool.feed_mm_per_min"] }),
+  s("plunge-feed", "tool", "number", "Plunge feed", { unit: "mm/min", hint: "a third", help: "Feed of steep descents. Not stated: a third of the feed, with a warning.", fields: ["plunge_feed_mm_per_min"] }),
+  s("coolant", "tool", "choice", "Coolant", { default: "off", choices: [["off", "off"], ["flood", "flood (M8)"], ["mist", "mist (M7)"], ["air", "air"]], help: "Coolant while cutting." }),
+  s("tool-number", "tool", "whole", "Tool number", { hint: "1", help: "The T word. Not stated: 1, with a warning.", fields: ["tool.number"], isRare: true }),
+  s("holder-clearance", "tool", "number", "Around the holder", { unit: "mm", hint: "0.5", help: "Distance kept around the holder and below it.", fields: ["holder_clearance_mm"], isRare: true }),
+
+  s("scallop", "finish", "number", "Scallop", { default: "0.01", unit: "mm", help: "Highest ridge between two passes. Step-over and z-step follow from it.", fields: ["scallop_mm"] }),
+  s("tolerance", "finish", "number", "Tolerance", { default: "0.01", unit: "mm", help: "The whole error budget: chords, rounding and the smoothing of the control together.", fields: ["tolerance_mm"] }),
+  s("leave", "finish", "number", "Stock to leave", { default: "0", unit: "mm", help: "Material that stays everywhere along the normal.", fields: ["stock_to_leave_mm"] }),
+
+  s("stock", "stock", "text", "Body", { hint: "not stated", help: "The stock as it lies on the machine: block, block,MARGIN, cylinder,D or cylinder,D,X,Y, in mm.", fields: ["stock.block.margin_mm", "stock.cylinder.diameter_mm", "stock.cylinder.center_xy_mm", "setup.stock.body"] }),
+  s("allowance", "stock", "number", "Allowance", { unit: "mm", hint: "0.5, assumed", help: "Material that the operation before left along the normal. When it is stated, rapids may run low.", fields: ["stock.allowance_mm"] }),
+  s("stock-top", "stock", "number", "Top of the stock", { unit: "mm", hint: "part + allowance", help: "Highest material, Z of the program.", fields: ["stock.top_z_mm"] }),
+  s("accept-depth", "stock", "number", "Accepted depth", { default: "0", unit: "mm", help: "How deep passes may cut into the stock where that is more than the allowance.", fields: ["accept_depth_mm"], isRare: true }),
+  s("obstacle", "stock", "lines", "Clamps", { hint: "vice=12,2: -40,-20 -30,-20 -30,20 -40,20", help: "One in each line: NAME=TOP,MARGIN: X,Y X,Y X,Y. The tool keeps off them on every move.", fields: ["setup.obstacles"], isRare: true }),
+
+  s("only", "area", "list", "Milled", { help: "Faces or patches that are milled. None: all of them.", fields: ["selection.patch_ids"] }),
+  s("avoid", "area", "list", "Avoided", { help: "Faces or patches that the tool keeps off.", fields: ["avoid_patch_ids"] }),
+  s("avoid-margin", "area", "number", "Distance to avoided", { default: "0", unit: "mm", help: "Distance between the tool and what is avoided.", fields: ["avoid_margin_mm"] }),
+  s("outside", "area", "flag", "Mill the outer walls", { help: "Upright walls on the outer border of the part are milled, too. The tool goes down beside the part there.", fields: ["mill_outside"] }),
+  s("floor", "area", "number", "Lowest tip", { unit: "mm", hint: "lowest point", help: "The tip goes no lower than this Z.", fields: ["floor_z_mm"] }),
+  s("top", "area", "number", "Highest tip", { unit: "mm", hint: "no limit", help: "The ball cuts no higher than with its tip at this Z.", fields: ["heights.top_z_mm"] }),
+  s("boundary", "area", "lines", "Boundary", { hint: "0,0 60,0 60,40 0,40", help: "Closed outline in plan, one ring in each line: X,Y X,Y X,Y.", fields: ["boundary_xy_mm", "more_boundary_rings"], isRare: true }),
+  s("boundary-mode", "area", "choice", "It limits", { default: "center", choices: [["contact", "contact points"], ["center", "the tool axis"], ["inside", "the whole ball"], ["outside", "the edge of the ball"]], help: "What the boundary limits.", fields: ["boundary_mode"], isRare: true }),
+  s("boundary-offset", "area", "number", "Offset of the boundary", { default: "0", unit: "mm", help: "Above 0 it widens the boundary, below 0 it narrows it.", fields: ["boundary_offset_mm"], isRare: true }),
+  s("region", "area", "list", "Regions", { help: "Changes to single regions: X,Y,Z:off, or X,Y,Z:contour, X,Y,Z:zigzag.", fields: ["region_overrides"] }),
+
+  s("strategy", "passes", "choice", "Strategy", { default: "auto", choices: [["auto", "contours on steep, lines on gentle areas"], ["contour", "contours everywhere"], ["zigzag", "zig-zag lines everywhere"]], help: "Which passes cut which areas.", fields: ["strategy"] }),
+  s("steep-angle", "passes", "number", "Steep from", { default: "45", unit: "\u00b0", help: "Slope from which on contours cut instead of zig-zag lines.", fields: ["steep_angle_deg"] }),
+  s("zigzag-angle", "passes", "number", "Direction of lines", { default: "0", unit: "\u00b0", help: "Direction of zig-zag lines from +X, counter-clockwise.", fields: ["zigzag_angle_deg"] }),
+  s("auto-angle", "passes", "flag", "Find the fastest direction", { help: "The lines of each region run in the direction that takes the least time. The job is planned some 20 times.", fields: ["zigzag_angle_auto"] }),
+  s("direction", "passes", "choice", "Contours", { default: "climb", choices: [["climb", "climb"], ["conventional", "conventional"], ["either", "the shorter of both"]], help: "Direction of contours.", fields: ["contour_direction"] }),
+  s("spirals", "passes", "flag", "Spirals", { help: "Closed contours around walls become one helical pass.", fields: ["contour_spirals"] }),
+  s("one-way", "passes", "flag", "One way", { help: "All zig-zag lines run in one direction.", fields: ["one_way_lines"] }),
+  s("edges", "passes", "choice", "Open edges", { default: "stop", choices: [["stop", "stop at them"], ["roll", "roll over them"], ["extend", "run beyond them"]], help: "What the ball does at the open edges of the surface.", fields: ["edge_rule"] }),
+  s("detail", "passes", "number", "Detail of regions", { default: "0.5", help: "How finely the surface is divided into regions: 0 coarsest, 1 finest.", fields: ["detail"] }),
+  s("clearance", "passes", "number", "Clearance", { default: "5", unit: "mm", help: "Height of rapids above the highest of part, stock and clamps.", fields: ["clearance_above_mm"] }),
+  s("max-unreached", "passes", "number", "Uncut at most", { unit: "%", hint: "50", help: "Largest share of what looks up that may stay uncut because the ball does not fit.", fields: ["max_unreached_fraction"], isRare: true }),
+
+  s("post", "program", "choice", "Control", { default: "linuxcnc", choices: [["linuxcnc", "LinuxCNC (RS274/NGC)"]], help: "The control that the program is written for.", fields: ["post.dialect"] }),
+  s("work-offset", "program", "choice", "Work offset", { default: "G54", choices: ["G54", "G55", "G56", "G57", "G58", "G59"].map((g) => [g, g] as const), help: "Work offset.", fields: ["work_offset"] }),
+  s("program-number", "program", "whole", "Program number", { default: "1", help: "For controls that number their programs.", fields: ["program_number"] }),
+  s("no-arcs", "program", "flag", "Straight moves only", { help: "No arcs (G2, G3), also where the control has them.", fields: ["post.arcs"] }),
+  s("restart-points", "program", "flag", "Restart points", { help: "The program has places where the control may be started again.", fields: ["restart_points"] }),
+  s("line-numbers", "program", "whole", "Line numbers", { hint: "as the control has them", help: "Step of the line numbers; 0: none.", fields: ["line_number_step"], isRare: true }),
+];
+
+const byName = new Map(settings.map((setting) => [setting.name, setting]));
+
+export function settingOf(name: string): Setting {
+  const setting = byName.get(name);
+  if (setting === undefined) throw new Error(`There is no setting "${name}".`);
+  return setting;
+}
+
+export const isList = ({ kind }: Setting): boolean => kind === "list" || kind === "lines";
+
+// What is chosen. A setting that is at its default is not in it.
+export class Choice {
+  readonly #values = new Map<string, string[]>();
+
+  // The text of a setting: what was chosen, or its default.
+  get(name: string): string {
+    return this.#values.get(name)?.[0] ?? settingOf(name).default;
+  }
+
+  list(name: string): readonly string[] {
+    return this.#values.get(name) ?? [];
+  }
+
+  isSet(name: string): boolean {
+    return this.#values.has(name);
+  }
+
+  set(name: string, ...values: string[]): void {
+    const setting = settingOf(name);
+    const kept = values.map((v) => v.trim()).filter((v) => v !== "");
+    if (kept.length === 0 || (!isList(setting) && kept[0] === setting.default)) this.#values.delete(name);
+    else this.#values.set(name, isList(setting) ? [...new Set(kept)] : [kept[0]!]);
+  }
+
+  clear(): void {
+    this.#values.clear();
+  }
+
+  // Adds a value to a list, or takes it out.
+  toggle(name: string, value: string, isIn: boolean): void {
+    this.set(name, ...this.list(name).filter((v) => v !== value), ...(isIn ? [value] : []));
+  }
+
+  // The settings as the part of an address after "#".
+  toHash(): string {
+    const pairs = new URLSearchParams();
+    for (const { name } of settings) for (const value of this.list(name)) pairs.append(name, value);
+    return pairs.toString();
+  }
+
+  // Returns the names in the address that are no settings.
+  fromHash(hash: string): string[] {
+    const found = new Map<string, string[]>();
+    const unknown: string[] = [];
+    for (const [name, value] of new URLSearchParams(hash.replace(/^#/, ""))) {
+      if (byName.has(name)) found.set(name, [...(found.get(name) ?? []), value.slice(0, 20_000)]);
+      else if (name !== "") unknown.push(name);
+    }
+    this.clear();
+    for (const [name, values] of found) this.set(name, ...values);
+    return unknown;
+  }
+
+  // The settings of these groups as one text, to see whether they changed.
+  keyOf(names: readonly string[]): string {
+    return names.map((name) => JSON.stringify(this.list(name))).join();
+  }
+}
+
+const quoted = (text: string): string => (/^[A-Za-z0-9_./:=,@%+-]+$/.test(text) ? text : `'${text.replaceAll("'", `'\\''`)}'`);
+
+// The command that makes the same program.
+export function commandOf(choice: Choice, file: string, program: string): string {
+  const words = ["patchmill", "mill", quoted(file), "-o", quoted(program)];
+  for (const setting of settings) {
+    const { name, kind } = setting;
+    if (!choice.isSet(name)) continue;
+    if (kind === "flag") words.push(`--${name}`);
+    else if (kind === "list" && name !== "region") words.push(quoted(`--${name}=${choice.list(name).join(",")}`));
+    else for (const value of choice.list(name)) words.push(quoted(`--${name}=${value}`));
+  }
+  return words.join(" ");
+}
