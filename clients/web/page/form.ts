@@ -142,7 +142,7 @@ function makeOpen(setting: Setting, usual: [string, string][], otherText: string
 }
 
 const upNames: [string, string][] = [["z", "Z of the model"], ["y", "Y of the model"], ["x", "X of the model"], ["-z", "\u2212Z of the model"], ["-y", "\u2212Y of the model"], ["-x", "\u2212X of the model"], ["auto", "the axis that shows most"]];
-const zeroNames: [string, string][] = [["", "not stated: model origin"], ["origin", "origin of the model"], ["top-center", "top, middle"], ["bottom-corner", "bottom, corner"]];
+const zeroNames: [string, string][] = [["", "origin, not stated"], ["origin", "origin of the model"], ["top-center", "top, middle"], ["bottom-corner", "bottom, corner"]];
 const stockNames: [string, string][] = [["", "not stated"], ["block", "block as the part"], ["block,2", "block, 2 mm around"], ["block,5", "block, 5 mm around"]];
 
 export class Form {

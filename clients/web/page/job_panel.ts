@@ -1,5 +1,5 @@
 // The job: start, progress, cancel, what came out, and its files.
-import { byId, make, press } from "../../viewer/src/page_elements";
+import { byId, make } from "../../viewer/src/page_elements";
 import { Severity } from "../gen/patchmill/v1/diagnostic_pb.js";
 import { Outcome, type Progress, type Report } from "../gen/patchmill/v1/report_pb.js";
 import { baseName, download, pageText, programName, reportText } from "./downloads";
@@ -7,7 +7,7 @@ import type { JobResult } from "./job";
 import { findingRow } from "./part_panel";
 import type { Problem } from "./problems";
 import { figuresOf, type PackedScene } from "./scene";
-import { durationText, shortName } from "./text";
+import { counted, durationText, shortName } from "./text";
 
 const outcomeTexts: Partial<Record<Outcome, string>> = {
   [Outcome.COMPLETE]: "Complete and verified",
@@ -58,7 +58,7 @@ export class ProgressView {
     byId("stage").textContent = stage === "" ? "waiting" : stage;
     byId("percent").textContent = `${Math.floor(100 * share)} %`;
     byId<HTMLProgressElement>("progress").value = share;
-    byId("stages-done").textContent = this.#done.length === 0 ? "" : `${this.#done.length} stages done`;
+    byId("stages-done").textContent = this.#done.length === 0 ? "" : `${counted(this.#done.length, "stage")} done`;
     byId("stages-done").title = this.#done.join(", ");
     this.#tick();
   }
@@ -113,15 +113,12 @@ function reasonsOf({ outcome, diagnostics }: Report): HTMLElement[] {
 
 export class ResultPanel {
   #finished: Finished | null = null;
+  #isProgramShown = false;
   readonly #onError: (error: unknown) => void;
 
   constructor(onShow: (isProgram: boolean) => void, onError: (error: unknown) => void) {
     this.#onError = onError;
-    byId("show-program").addEventListener("click", () => {
-      const isProgram = byId("show-program").getAttribute("aria-pressed") !== "true";
-      press(byId("show-program"), isProgram);
-      onShow(isProgram);
-    });
+    byId("show-program").addEventListener("click", () => onShow(!this.#isProgramShown));
     byId("get-program").addEventListener("click", () => this.#get(({ result, file, dialect }) => download(programName(file, dialect), new Uint8Array(result.program!), "text/plain")));
     byId("get-report").addEventListener("click", () => this.#get(({ result, file }) => download(`${baseName(file)}-report.json`, reportText(result.report), "application/json")));
     byId("get-picture").addEventListener("click", () => this.#get(({ result, file }) => download(`${baseName(file)}.svg`, new Uint8Array(result.picture), "image/svg+xml")));
@@ -153,15 +150,16 @@ export class ResultPanel {
     byId("get-program").hidden = result.program === null;
     byId("get-picture").hidden = result.picture.length === 0;
     byId("get-page").hidden = scene === null;
-    byId("show-program").hidden = scene === null;
-    press(byId("show-program"), scene !== null);
+    byId("show-program").hidden = scene === null || result.program === null;
   }
 
   setStale(isStale: boolean): void {
     byId("stale").hidden = !isStale || this.#finished === null;
   }
 
-  showsRegions(): void {
-    press(byId("show-program"), false);
+  // Says what the picture shows.
+  shows(isProgram: boolean): void {
+    this.#isProgramShown = isProgram;
+    byId("show-program").textContent = isProgram ? "Show the part" : "Show the program";
   }
 }

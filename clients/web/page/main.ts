@@ -17,7 +17,7 @@ import { endingOf, knownEndings, makeCheck, makeProgram, makeSplit, type ModelFi
 import { colorOf, type PackedScene, packScene, regionName } from "./scene";
 import { Choice, commandOf, settings } from "./settings";
 import { marksOf, placeText, type Surface, surfacesOf } from "./surfaces";
-import { bytesText } from "./text";
+import { bytesText, counted } from "./text";
 import { View } from "./view";
 
 const maxFileBytes = 64 * 2 ** 20 - 4096; // a request has 64 MiB, and not all of it is the file
@@ -39,6 +39,7 @@ let clickMode = "look";
 let keys = { check: "", split: "", job: "" };
 let timer = 0;
 let isRunning = false;
+let isProgramShown = false;
 
 const checkCall = new LatestCall();
 const splitCall = new LatestCall();
@@ -153,7 +154,7 @@ async function runCheck(of: ModelFile): Promise<void> {
     if (answer === null) return;
     check = answer;
     const errors = check.diagnostics.filter((d) => d.severity === Severity.ERROR).length;
-    setState("check-state", errors === 0 ? "" : `The part cannot be milled: it has ${errors} errors.`, errors > 0);
+    setState("check-state", errors === 0 ? "" : `The part cannot be milled: it has ${counted(errors, "error")}.`, errors > 0);
     showPart(check, showPlace);
     form.describeUp(upNotes(check));
     setSurfaces();
@@ -164,8 +165,7 @@ async function runCheck(of: ModelFile): Promise<void> {
 }
 
 function showPlace({ code, message }: Diagnostic): void {
-  if (results.finished !== null) {
-    results.showsRegions();
+  if (isProgramShown) {
     void showScene(map, false).then(() => view.api?.findPlace(code, message));
   } else view.api?.findPlace(code, message);
 }
@@ -207,9 +207,8 @@ async function runSplit(of: ModelFile): Promise<void> {
     lists.setRegions(regions.filter((r) => r.insidePoint !== undefined).map((r) => ({ id: r.id, place: placeText(r.insidePoint!), name: regionName(r), color: colorOf(r) })));
     setSurfaces();
     const seconds = ((performance.now() - start) / 1000).toFixed(1);
-    setState("split-state", `${regions.length} ${regions.length === 1 ? "region" : "regions"}, computed in ${seconds} s`);
+    setState("split-state", `${counted(regions.length, "region")}, computed in ${seconds} s`);
     if (!isRunning && !(results.finished !== null && keys.job === choice.keyOf(allNames))) {
-      results.showsRegions();
       await showScene(map, false);
     }
   } catch (error) {
@@ -220,7 +219,8 @@ async function runSplit(of: ModelFile): Promise<void> {
 
 async function showScene(scene: PackedScene | null, isProgram: boolean): Promise<void> {
   if (scene === null) return;
-  byId("tools").dataset.view = isProgram ? "program" : "part";
+  isProgramShown = isProgram;
+  results.shows(isProgram);
   try {
     await view.show(scene, isProgram);
     if (!isProgram) showMarks();
@@ -253,8 +253,7 @@ function setClickMode(mode: string): void {
   for (const button of document.querySelectorAll<HTMLElement>("[data-click]")) press(button, button.dataset.click === mode);
   view.setPicking(mode !== "look");
   if (mode === "look") return;
-  if (results.finished !== null && map !== null && byId("tools").dataset.view === "program") {
-    results.showsRegions();
+  if (results.finished !== null && map !== null && isProgramShown) {
     void showScene(map, false).then(() => shadeFor(mode));
   } else shadeFor(mode);
   if (mode !== "up") byId<HTMLDetailsElement>("area-box").open = true;
@@ -291,7 +290,7 @@ async function start(): Promise<void> {
     [result.mesh, result.paths] = [[], []];
     keys.job = choice.keyOf(allNames);
     results.set(finished);
-    await showScene(scene, true);
+    await showScene(scene, result.program !== null);
   } catch (error) {
     tell(problemOf(error, "The job"));
   } finally {

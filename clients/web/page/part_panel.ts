@@ -4,7 +4,7 @@ import type { Diagnostic } from "../gen/patchmill/v1/diagnostic_pb.js";
 import { Severity } from "../gen/patchmill/v1/diagnostic_pb.js";
 import type { CheckModelResponse } from "../gen/patchmill/v1/model_service_pb.js";
 import { UpAxis } from "../gen/patchmill/v1/setup_pb.js";
-import { brief, fixed, placeOf, severityName } from "./text";
+import { brief, counted, inWords, placeOf, severityName } from "./text";
 
 const mostFindings = 200; // rows
 const toneOf = (severity: Severity): string => (severity === Severity.ERROR ? "bad" : severity === Severity.WARNING ? "warn" : "plain");
@@ -13,7 +13,7 @@ export function findingRow(finding: Diagnostic, show: ((finding: Diagnostic) => 
   const row = make("li");
   row.dataset.tone = toneOf(finding.severity);
   const place = placeOf(finding);
-  row.append(make("b", "", severityName(finding.severity)), make("code", "", finding.code + (place === "" ? "" : `, ${place}`)), make("p", "", finding.message));
+  row.append(make("b", "", severityName(finding.severity)), make("code", "", ` ${finding.code}${place === "" ? "" : `, ${place}`}`), make("p", "", inWords(finding.message)));
   if (finding.where?.point !== undefined && show !== null) {
     const button = make("button", "", "Show the place");
     button.type = "button";
@@ -40,8 +40,8 @@ export function showPart(check: CheckModelResponse, show: (finding: Diagnostic) 
   const rows: [string, string][] = [];
   if (box?.min !== undefined && box.max !== undefined) {
     const [a, b] = [box.min, box.max];
-    const size = [b.xMm - a.xMm, b.yMm - a.yMm, b.zMm - a.zMm].map((v) => fixed(v, 2)).join(" \u00d7 ");
-    rows.push(["size", `${size} mm`], ["Z", `${fixed(a.zMm, 2)} to ${fixed(b.zMm, 2)} mm`]);
+    const size = [b.xMm - a.xMm, b.yMm - a.yMm, b.zMm - a.zMm].map((v) => brief(v, 5)).join(" \u00d7 ");
+    rows.push(["size, mm", size], ["Z, mm", `${brief(a.zMm, 5)} to ${brief(b.zMm, 5)}`]);
     byId("sum-part").textContent = `${size} mm`;
   } else byId("sum-part").textContent = "cannot be used";
   rows.push([check.faceCount > 0 ? "faces, patches" : "patches", check.faceCount > 0 ? `${check.faceCount}, ${check.patchCount}` : String(check.patchCount)]);
@@ -55,9 +55,9 @@ export function showPart(check: CheckModelResponse, show: (finding: Diagnostic) 
   const items = sorted.slice(0, mostFindings).map((d) => findingRow(d, show));
   if (sorted.length > mostFindings) items.push(make("li", "soft", `${sorted.length - mostFindings} more are not listed.`));
   byId("findings").replaceChildren(...items);
-  byId("findings-title").textContent = `Findings: ${errors} errors, ${warnings} warnings, ${diagnostics.length - errors - warnings} notes`;
+  byId("findings-title").textContent = `Findings: ${counted(errors, "error")}, ${counted(warnings, "warning")}, ${counted(diagnostics.length - errors - warnings, "note")}`;
   byId("findings-box").hidden = diagnostics.length === 0;
-  if (errors > 0) byId<HTMLDetailsElement>("findings-box").open = true;
+  byId<HTMLDetailsElement>("findings-box").open = errors + warnings > 0;
 }
 
 export function clearPart(): void {

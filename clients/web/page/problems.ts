@@ -2,7 +2,7 @@
 import { Code, ConnectError } from "@connectrpc/connect";
 import { type ErrorInfo, ErrorInfoSchema } from "../gen/patchmill/v1/status_pb.js";
 import { settings } from "./settings";
-import { brief } from "./text";
+import { brief, inWords } from "./text";
 import { SettingError } from "./values";
 
 export interface ProblemItem {
@@ -70,11 +70,11 @@ export function problemOf(error: unknown, what: string): Problem {
     return { title: `${what} failed`, items: [{ setting: null, field: "", text }], advice: "Start scripts/web.sh again. The settings are in the address and stay." };
   }
   const info = error.findDetails(ErrorInfoSchema)[0];
-  const items: ProblemItem[] = (info?.fieldViolations ?? []).map(({ field, description }) => ({ setting: settingOfField(field), field, text: description }));
+  const items: ProblemItem[] = (info?.fieldViolations ?? []).map(({ field, description }) => ({ setting: settingOfField(field), field, text: inWords(description) }));
   if (info !== undefined && info.violationCount > items.length) {
     items.push({ setting: null, field: "", text: `${info.violationCount - items.length} more fields are wrong.` });
   }
-  if (items.length === 0) items.push({ setting: null, field: "", text: error.rawMessage === "" ? Code[error.code] : error.rawMessage });
+  if (items.length === 0) items.push({ setting: null, field: "", text: error.rawMessage === "" ? (Code[error.code] ?? "unknown") : inWords(error.rawMessage) });
   const limit = info === undefined ? "" : limitText(info);
   if (limit !== "") items.push({ setting: null, field: "", text: limit });
   const advice = adviceOfReason[info?.reason ?? ""] ?? adviceOfCode[error.code] ?? "";

@@ -2,11 +2,15 @@
 import { type Diagnostic, Severity } from "../gen/patchmill/v1/diagnostic_pb.js";
 import { UnreachableReason } from "../gen/patchmill/v1/region_pb.js";
 import type { Report } from "../gen/patchmill/v1/report_pb.js";
+import { settings } from "./settings";
 
 export const fixed = (value: number, digits: number): string => (Math.abs(value) < 0.5 * 10 ** -digits ? 0 : value).toFixed(digits);
 
 // A number with at most this many digits that count.
 export const brief = (value: number, digits = 4): string => String(Number(value.toPrecision(digits)));
+
+// "1 error", "2 errors".
+export const counted = (count: number, what: string): string => `${count} ${what}${count === 1 ? "" : "s"}`;
 
 // The name of a value of a generated enumeration, without the prefix.
 export function shortName(type: Record<number, string>, value: number): string {
@@ -26,6 +30,14 @@ export function uncutShare(report: Report): string {
   };
   const reasons = unreachable.map((p) => `${shortName(UnreachableReason, p.reason)} ${share(p.areaMm2)}`).join(", ");
   return `${share(report.unreachableAreaMm2)} of the area (${reasons})`;
+}
+
+// A message with the labels of the page in place of the options of the command line.
+export function inWords(message: string): string {
+  return message.replace(/(?<![\w-])--([a-z][a-z-]*[a-z])/g, (whole, name: string) => {
+    const label = settings.find((s) => s.name === name)?.label;
+    return label === undefined ? whole : `\u201c${label}\u201d`;
+  });
 }
 
 // Where a finding is: a face, a patch, a line.

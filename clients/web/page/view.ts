@@ -1,6 +1,6 @@
 // The picture: a frame with the viewer for each scene. A new frame takes the place of the old one when it is drawn.
 import { byId, make } from "../../viewer/src/page_elements";
-import type { Clicked, FrameApi, FrameWindow, Mark, View as ViewState } from "./frame/api";
+import type { Clicked, FrameApi, FrameWindow, Mark } from "./frame/api";
 import type { Box, PackedScene } from "./scene";
 
 export interface ViewEvents {
@@ -15,6 +15,7 @@ export class View {
   #frame: HTMLIFrameElement | null = null;
   #next: HTMLIFrameElement | null = null;
   #box = ""; // of the scene that is shown
+  #isProgram = false;
   #isPicking = false;
   #isDark = false;
 
@@ -38,10 +39,10 @@ export class View {
     const box = JSON.stringify(scene.header.box as Box);
     const before = this.api?.view() ?? null;
     const view = before !== null && box === this.#box ? before : null;
-    // Leftover and the like are only known of a program, and the viewer has no marks of its own.
-    if (view !== null && (isProgram || view.shading === "marks")) view.shading = isProgram ? null : view.shading;
+    const isOther = isProgram !== this.#isProgram;
+    if (view !== null && isOther) view.shading = null;
     try {
-      api.show(scene.header, scene.block, { isProgram, isDark: this.#isDark, view, ...this.#events });
+      api.show(scene.header, scene.block, { isProgram, isDark: this.#isDark, view, isFitted: isOther, ...this.#events });
     } catch (error) {
       frame.remove();
       this.#next = null;
@@ -53,6 +54,7 @@ export class View {
     this.#frame = frame;
     this.#next = null;
     this.#box = box;
+    this.#isProgram = isProgram;
     byId("empty").hidden = true;
   }
 
@@ -81,9 +83,5 @@ export class View {
 
   mark(marks: ReadonlyMap<string, Mark>, isAllMilled: boolean): void {
     this.api?.mark(marks, isAllMilled);
-  }
-
-  get state(): ViewState | null {
-    return this.api?.view() ?? null;
   }
 }

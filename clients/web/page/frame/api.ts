@@ -18,6 +18,7 @@ export interface Shown {
   isProgram: boolean;
   isDark: boolean;
   view: View | null; // to go on with; null: the whole part is fitted in
+  isFitted: boolean; // the whole is fitted in, seen from where it was
   onClick: (clicked: Clicked) => void;
   onFile: (file: File) => void;
   onTheme: (isDark: boolean) => void;

@@ -58,11 +58,12 @@ function setDark(wanted: boolean): void {
   if (isDark() !== wanted) byId("theme").click();
 }
 
-function restore(view: View): void {
+function restore(view: View, isFitted: boolean): void {
   const { viewer } = need();
   Object.assign(viewer.camera, { yaw: view.yaw, pitch: view.pitch, height: view.height });
   viewer.camera.target.set(...view.target);
   if (view.isOrthographic) byId("projection").click();
+  if (isFitted) viewer.fit();
   if (view.shading !== null && viewer.shadings.some((s) => s.id === view.shading)) viewer.setShading(view.shading as ShadingId);
   viewer.viewChanged();
 }
@@ -85,7 +86,7 @@ const api: FrameApi = {
     followClicks(shown);
     followFiles(shown);
     setDark(shown.isDark);
-    if (shown.view !== null) restore(shown.view);
+    if (shown.view !== null) restore(shown.view, shown.isFitted);
     new MutationObserver(() => shown.onTheme(isDark())).observe(document.documentElement, { attributeFilter: ["data-theme"] });
   },
   view: () => {

@@ -1,0 +1,333 @@
+// The page in a browser: from a part to a verified program, as a user goes.
+import assert from "node:assert/strict";
+import { createServer as createHttp } from "node:http";
+import { createServer } from "node:http2";
+import { copyFile, readFile, writeFile } from "node:fs/promises";
+import { join } from "node:path";
+import { promisify } from "node:util";
+import { execFile } from "node:child_process";
+import { after, before, test } from "node:test";
+import { connectNodeAdapter } from "@connectrpc/connect-node";
+import { ToolpathService } from "../gen/patchmill/v1/toolpath_service_pb.js";
+import {
+  bin, cadPart, choosePart, clickPoint, downloaded, example, freePort, inFrame, needBuild, openPage, regionsShown, startBackend, startBrowser, startWeb, withFolder,
+} from "./support.mjs";
+
+let backend;
+let web;
+let browser;
+before(async () => {
+  needBuild();
+  backend = await startBackend();
+  web = await startWeb(backend.port);
+  browser = await startBrowser();
+});
+after(async () => {
+  await browser?.close();
+  await web?.stop();
+  await backend?.stop();
+});
+
+const text = (page, id) => page.textContent(`#${id}`);
+const hashOf = (page) => new URLSearchParams(new URL(page.url()).hash.slice(1));
+const done = (page) => page.waitForSelector("#result:not([hidden]), #problem:not([hidden])", { timeout: 60_000 });
+const openGroups = (page) => page.evaluate(() => document.querySelectorAll("#groups details").forEach((d) => (d.open = true)));
+const problem = (page) => page.waitForSelector("#problem:not([hidden])", { timeout: 20_000 });
+// Small and quick: a flat dome of one patch.
+const dome = (id = "dome") =>
+  JSON.stringify({
+    length_unit: "LENGTH_UNIT_MILLIMETER",
+    patches: [{ id, bezier: { degree_u: 3, degree_v: 3, points: [0, 0, 0, 0, 20, 6, 0, 40, 6, 0, 60, 0, 20, 0, 6, 20, 20, 30, 20, 40, 30, 20, 60, 6, 40, 0, 6, 40, 20, 30, 40, 40, 30, 40, 60, 6, 60, 0, 0, 60, 20, 6, 60, 40, 6, 60, 60, 0] } }],
+  });
+const asFile = (name, content) => ({ name, mimeType: "application/octet-stream", buffer: Buffer.from(content) });
+
+// Runs the command that the page shows, beside a copy of the part.
+async function runCommand(page, part, folder, extra) {
+  await copyFile(part, join(folder, part.split("/").pop()));
+  const command = await text(page, "command");
+  await promisify(execFile)("bash", ["-c", `${command} ${extra}`], { cwd: folder, env: { ...process.env, PATH: `${bin}:${process.env.PATH}` } });
+}
+
+test("a CAD part: findings and size, a click on a face, regions anew, a job, and files equal to the command line's", { timeout: 60_000 }, async () => {
+  const { page, faults, close } = await openPage(browser, `${web.url}#scallop=0.1&tolerance=0.05&allowance=0.3&post=fanuc&work-offset=G55`);
+  const part = cadPart("block.step");
+  await choosePart(page, part);
+  await page.waitForFunction(() => document.querySelectorAll("#surfaces li").length === 17);
+  assert.equal(await text(page, "sum-part"), "60 \u00d7 40 \u00d7 20 mm");
+  assert.match(await text(page, "findings-title"), /0 errors, 1 warning,/);
+  const whole = await inFrame(page, "state");
+  assert.ok(whole.regions > 3);
+
+  // A click on the top face mills it alone; the next one in its list takes it back.
+  await page.click('[data-click="mill"]');
+  await clickPoint(page, [30, 3, 20]);
+  await page.waitForFunction(() => location.hash.includes("only="));
+  const [face] = hashOf(page).getAll("only");
+  assert.match(await text(page, "command"), new RegExp(`--only=${face}( |$)`));
+  const button = page.locator(`#surfaces button[data-is="only"][aria-label="mill ${face}"]`);
+  assert.equal(await button.getAttribute("aria-pressed"), "true");
+  assert.equal((await inFrame(page, "state")).shading, "marks");
+  await button.focus();
+  await page.keyboard.press("Space");
+  assert.equal(hashOf(page).get("only"), null);
+  await page.keyboard.press("Space"); // the focus stayed
+  assert.equal(hashOf(page).get("only"), face);
+
+  // The map was made anew: other regions are not selected.
+  await page.waitForFunction(() => document.getElementById("split-state").textContent.includes("computed in") === false);
+  await regionsShown(page);
+
+  await page.click("#start");
+  await page.waitForSelector("#progress-box:not([hidden])");
+  assert.equal(await page.isVisible("#cancel"), true);
+  await done(page);
+  assert.equal(await text(page, "problem"), "");
+  assert.match(await text(page, "outcome"), /erified/);
+  const program = await downloaded(page, "#get-program");
+  const report = await downloaded(page, "#get-report");
+  const picture = await downloaded(page, "#get-picture");
+  const view = await downloaded(page, "#get-page");
+  assert.equal(program.name, "block.nc");
+  await withFolder(async (folder) => {
+    await runCommand(page, part, folder, "--report r.json --preview p.svg");
+    assert.ok(program.bytes.equals(await readFile(join(folder, "block.nc"))), "the program has other bytes than the command line's");
+    assert.ok(picture.bytes.equals(await readFile(join(folder, "p.svg"))));
+    const [ours, theirs] = [JSON.parse(report.bytes), JSON.parse(await readFile(join(folder, "r.json")))];
+    for (const r of [ours, theirs]) for (const s of r.stages) delete s.seconds;
+    assert.deepEqual(ours, theirs);
+    // The 3-D page opens by itself.
+    const file = join(folder, "page.html");
+    await writeFile(file, view.bytes);
+    const context = await browser.newContext({ offline: true });
+    const alone = await context.newPage();
+    await alone.goto(`file://${file}`);
+    await alone.evaluate(() => window.patchmillView.ready);
+    assert.ok((await alone.evaluate(() => window.patchmillView.state())).total > 0);
+    await context.close();
+  });
+
+  // The slider runs the tool.
+  await page.waitForFunction(() => document.querySelector("#frames iframe:not(.next)").title.includes("program"));
+  const frame = page.frameLocator("#frames iframe:not(.next)");
+  assert.equal((await inFrame(page, "state")).time, 0);
+  await frame.locator("#time").focus();
+  await page.keyboard.press("End");
+  const end = await inFrame(page, "state");
+  assert.ok(Math.abs(end.time - end.total) < 1e-6 && end.total > 1);
+  assert.match(await frame.locator("#lines").textContent(), /M30|%/);
+  // Clicks on the part come back when they are wanted.
+  await page.click("#show-program");
+  await page.waitForFunction(() => document.querySelector("#frames iframe:not(.next)").title.includes("part"));
+  await openGroups(page);
+  await page.fill("#set-scallop", "0.2");
+  assert.equal(await page.isVisible("#stale"), true);
+  assert.deepEqual(faults, []);
+  await close();
+});
+
+test("regions are switched off by a click and in the list; a plane face is turned up", { timeout: 60_000 }, async () => {
+  const { page, faults, close } = await openPage(browser, `${web.url}#scallop=0.1&tolerance=0.05`);
+  await choosePart(page, cadPart("block.step"));
+  await page.click('[data-click="region"]');
+  await clickPoint(page, [30, 3, 20]);
+  await page.waitForFunction(() => location.hash.includes("region="));
+  const change = hashOf(page).get("region");
+  assert.match(change, /^-?[\d.]+,-?[\d.]+,-?[\d.]+:off$/);
+  await page.waitForFunction(() => [...document.querySelectorAll("#regions select")].some((s) => s.value === "off"));
+  await page.waitForTimeout(500);
+  await regionsShown(page);
+  const row = page.locator("#regions li", { has: page.locator("select") }).filter({ hasText: "NEUTRAL, GENTLE" }).first();
+  assert.equal(await row.locator("select").inputValue(), "off", "the region is still the one that was clicked");
+  await row.locator("select").selectOption("");
+  assert.equal(hashOf(page).get("region"), null);
+
+  // The front face lies at y = 0; after the turn it is the highest.
+  await page.waitForTimeout(500);
+  await regionsShown(page);
+  await page.click('[data-click="up"]');
+  await clickPoint(page, [30, 0, 4]);
+  await page.waitForFunction(() => location.hash.includes("up="));
+  assert.match(hashOf(page).get("up"), /^f\d+$/);
+  await page.waitForFunction(() => document.getElementById("sum-part").textContent.startsWith("60 \u00d7 20 \u00d7 40"), null, { timeout: 20_000 });
+  assert.deepEqual(faults, []);
+  await close();
+});
+
+test("a job is cancelled, and nothing of it is kept", { timeout: 60_000 }, async () => {
+  const { page, faults, close } = await openPage(browser, `${web.url}#scallop=0.001&tolerance=0.001&tool-diameter=1`);
+  await choosePart(page, example("two_hills.bv"));
+  await page.click("#start");
+  await page.waitForFunction(() => /%/.test(document.getElementById("percent").textContent));
+  assert.ok(Number(await page.getAttribute("#progress", "value")) <= 1);
+  const before = backend.lines.length;
+  const start = performance.now();
+  await page.click("#cancel");
+  await page.waitForSelector("#progress-box", { state: "hidden" });
+  while (!backend.lines.slice(before).some((line) => /GenerateProgram.*CANCELLED/.test(line))) {
+    assert.ok(performance.now() - start < 5000, `the backend goes on: ${backend.lines.slice(before).join("\n")}`);
+    await page.waitForTimeout(20);
+  }
+  assert.equal(await page.isVisible("#result"), false);
+  assert.equal(await page.isEnabled("#start"), true);
+  assert.match(await text(page, "split-state"), /cancelled/);
+  assert.deepEqual(faults, []);
+  await close();
+});
+
+test("wrong settings are shown with value, field and a way to them", async () => {
+  const { page, faults, close } = await openPage(browser, web.url);
+  await page.setInputFiles("#file", asFile("dome.json", dome()));
+  await regionsShown(page);
+  await openGroups(page);
+  await page.fill("#set-scallop", "-1");
+  await problem(page);
+  assert.match(await text(page, "problem"), /-1.*must|must.*-1/s);
+  assert.match(await text(page, "problem"), /job\.operations\[0\]\.scallop_mm/);
+  assert.match(await text(page, "wrong-scallop"), /-1/);
+  assert.equal(await page.getAttribute("#set-scallop", "aria-invalid"), "true");
+  await page.click('#problem [data-setting="scallop"]');
+  assert.equal(await page.evaluate(() => document.activeElement.id), "set-scallop");
+  // A text that is no number does not leave the page.
+  await page.fill("#set-scallop", "0,02");
+  await problem(page);
+  assert.match(await text(page, "problem"), /decimal point/);
+  await page.fill("#set-scallop", "0.02");
+  await page.waitForSelector("#problem", { state: "hidden" });
+  assert.deepEqual(faults, []);
+  await close();
+});
+
+test("names with markup are text, wherever they stand", async () => {
+  const evil = '<img src=x onerror=alert(1)><script>alert(2)</script>';
+  const { page, faults, close } = await openPage(browser, `${web.url}#${new URLSearchParams({ up: evil, only: evil, "x<b>": "1", scallop: "0.1", tolerance: "0.05" })}`);
+  assert.match(await text(page, "problem"), /x<b>/);
+  await page.setInputFiles("#file", asFile(`${evil.replaceAll("/", "_")}.json`, dome(evil)));
+  await problem(page);
+  await page.evaluate(() => (location.hash = "scallop=0.1&tolerance=0.05"));
+  await regionsShown(page);
+  assert.ok((await text(page, "surfaces")).includes(evil));
+  await page.click('[data-click="mill"]');
+  await page.click('#surfaces button[data-is="only"]');
+  await page.waitForTimeout(500);
+  await regionsShown(page);
+  await page.click("#start");
+  await done(page);
+  assert.match(await text(page, "outcome"), /erified/, await text(page, "problem"));
+  const view = await downloaded(page, "#get-page");
+  assert.ok(!view.bytes.includes(evil), "the markup is escaped in the page");
+  assert.equal(await page.evaluate(() => document.querySelectorAll("img").length), 0);
+  assert.equal(await page.frameLocator("#frames iframe:not(.next)").locator("img").count(), 0);
+  assert.deepEqual(faults, []);
+  await close();
+});
+
+test("damaged and unknown files are errors that say what to do", async () => {
+  const { page, faults, close } = await openPage(browser, web.url);
+  const cases = [
+    ["part.txt", "hello", /has no ending that Patchmill reads/],
+    ["part.json", "{", /JSON|cannot|line/],
+    ["part.step", "ISO-10303-21; rubbish", /./],
+    ["part.bpt", "1 2 3 \u0000", /line|patch/i],
+    ["part.pb", "", /./],
+  ];
+  for (const [name, content, wanted] of cases) {
+    await page.setInputFiles("#file", asFile(name, content));
+    await problem(page);
+    assert.match(await text(page, "problem"), wanted, name);
+    assert.notEqual(await page.textContent("#problem .advice"), "", name);
+  }
+  await withFolder(async (folder) => {
+    const big = join(folder, "big.step");
+    await writeFile(big, Buffer.alloc(65 * 2 ** 20));
+    await page.setInputFiles("#file", big);
+    await page.waitForFunction(() => /65\.0 MiB; a request has at most 64 MiB/.test(document.getElementById("problem").textContent));
+  });
+  assert.deepEqual(faults, []);
+  await close();
+});
+
+test("a stream that ends early is void", async () => {
+  const fake = createServer(
+    connectNodeAdapter({
+      routes: (router) =>
+        router.service(ToolpathService, {
+          async *generateProgram() {
+            yield { event: { case: "accepted", value: {} } };
+            yield { event: { case: "program", value: { data: new TextEncoder().encode("G1 X0\nM30\n") } } };
+          },
+        }),
+    }),
+  );
+  const port = await freePort();
+  await new Promise((resolve) => fake.listen(port, "127.0.0.1", resolve));
+  const own = await startWeb(port);
+  const { page, faults, close } = await openPage(browser, own.url);
+  await page.setInputFiles("#file", asFile("dome.json", dome()));
+  await page.waitForTimeout(600);
+  await page.click("#start");
+  await page.waitForFunction(() => /ended before its report/.test(document.getElementById("problem").textContent));
+  assert.equal(await page.isVisible("#result"), false);
+  assert.deepEqual(faults, []);
+  await close();
+  await own.stop();
+  fake.close();
+});
+
+test("a backend or a server that is not there is said on the page", async () => {
+  const own = await startWeb(await freePort());
+  const { page, close } = await openPage(browser, own.url);
+  await problem(page);
+  assert.match(await text(page, "problem"), /patchmilld does not answer at 127\.0\.0\.1:\d+/);
+  await own.stop();
+  await page.setInputFiles("#file", asFile("dome.json", dome()));
+  await page.waitForFunction(() => /server of this page does not answer/.test(document.getElementById("problem").textContent));
+  await close();
+});
+
+test("another site can neither call nor embed the page", async () => {
+  const other = createHttp((_request, response) => response.writeHead(200, { "Content-Type": "text/html" }).end("<p>other</p>"));
+  const port = await freePort();
+  await new Promise((resolve) => other.listen(port, "127.0.0.1", resolve));
+  const page = await browser.newPage();
+  await page.goto(`http://localhost:${port}/`);
+  const before = backend.lines.length;
+  const outcome = await page.evaluate(async (url) => {
+    const call = (mode, headers) => fetch(`${url}patchmill.v1.ToolpathService/ListPosts`, { method: "POST", mode, headers, body: "" }).then((r) => r.type, () => "refused");
+    const frame = document.createElement("iframe");
+    frame.src = url;
+    document.body.append(frame);
+    await new Promise((resolve) => (frame.onload = resolve));
+    let isReadable = true;
+    try {
+      isReadable = frame.contentDocument !== null;
+    } catch {
+      isReadable = false;
+    }
+    return [await call("cors", { "Content-Type": "application/proto", "Connect-Protocol-Version": "1" }), await call("no-cors", {}), isReadable];
+  }, web.url);
+  assert.equal(outcome[0], "refused");
+  assert.equal(outcome[2], false);
+  assert.ok(!backend.lines.slice(before).some((line) => line.includes("ListPosts")), "no call came through");
+  await page.close();
+  other.close();
+});
+
+test("the address holds the settings, the page is dark and narrow when it should be", async () => {
+  const { page, faults, close } = await openPage(browser, `${web.url}#tool-diameter=4&strategy=zigzag&spirals=1&obstacle=${encodeURIComponent("vice=12,2: -40,-20 -30,-20 -30,20")}`, { colorScheme: "dark", viewport: { width: 390, height: 800 } });
+  assert.equal(await page.inputValue("#set-tool-diameter"), "4");
+  assert.equal(await page.inputValue("#set-strategy"), "zigzag");
+  assert.equal(await page.isChecked("#set-spirals"), true);
+  assert.match(await page.inputValue("#set-obstacle"), /^vice=12,2:/);
+  await page.setInputFiles("#file", asFile("dome.json", dome()));
+  await regionsShown(page);
+  await page.waitForSelector("#frames iframe:not(.next)");
+  assert.equal((await inFrame(page, "state")).theme, "dark");
+  assert.deepEqual((await inFrame(page, "state")).layers.filter((l) => l.id === "clamps").length, 1);
+  assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), "nothing is cut off at the side");
+  await page.click("#dark");
+  assert.equal((await inFrame(page, "state")).theme, "light");
+  await page.click("#reset");
+  assert.equal(new URL(page.url()).hash.replace("#", ""), "");
+  assert.deepEqual(faults, []);
+  await close();
+});
