@@ -1,6 +1,7 @@
 // The controls of the settings, made from their table.
 import { byId, make, option } from "../../viewer/src/page_elements";
 import type { Problem } from "./problems";
+import { defaultCuttingData } from "./request";
 import { type Choice, type Setting, settingOf, settings } from "./settings";
 
 interface Control {
@@ -187,8 +188,17 @@ export class Form {
     this.fill();
   }
 
+  // The defaults of spindle speed and feeds depend on the ball.
+  #hintCuttingData(): void {
+    const [diameter, feed] = ["tool-diameter", "feed"].map((name) => Number(this.#choice.get(name)));
+    const usual = defaultCuttingData(diameter! > 0 ? diameter! : 6, feed! > 0 ? feed : undefined);
+    const hints = { spindle: usual.spindle, feed: usual.feed, "plunge-feed": usual.plunge };
+    for (const [name, value] of Object.entries(hints)) byId<HTMLInputElement>(`set-${name}`).placeholder = `${value}, assumed`;
+  }
+
   fill(): void {
     for (const { fill } of this.#controls) fill();
+    this.#hintCuttingData();
     for (const group of ["tool", "finish", "stock", "area", "passes", "program"]) byId(`sum-${group}`).textContent = this.#summaryOf(group);
   }
 

@@ -7,6 +7,7 @@ import type { JobResult } from "./job";
 import { findingRow } from "./part_panel";
 import type { Problem } from "./problems";
 import { figuresOf, type PackedScene } from "./scene";
+import { settingOf } from "./settings";
 import { counted, durationText, shortName } from "./text";
 
 const outcomeTexts: Partial<Record<Outcome, string>> = {
@@ -76,14 +77,17 @@ export function showProblem(problem: Problem | null, goTo: (setting: string) => 
   const list = make("ul");
   for (const { setting, field, text } of problem.items) {
     const row = make("li");
+    const name = setting === null ? field : `\u201c${settingOf(setting).label}\u201d`;
+    // What the server says of a field begins with its value: "= -1; must be above 0".
+    const whole = text.startsWith("=") ? `${name} ${text}` : text;
     if (setting !== null) {
-      const link = make("button", "", `Go to it`);
+      const link = make("button", "", "Go to it");
       link.type = "button";
       link.dataset.setting = setting;
       link.addEventListener("click", () => goTo(setting));
-      row.append(make("span", "", `${text} `), link);
-    } else row.textContent = text;
-    if (field !== "") row.append(make("code", "", ` ${field}`));
+      row.append(make("span", "", `${whole} `), link);
+    } else row.textContent = whole;
+    if (field !== "" && !whole.startsWith(field)) row.append(make("code", "", ` ${field}`));
     list.append(row);
   }
   box.replaceChildren(make("h2", "", problem.title), list);

@@ -10,14 +10,15 @@ import { Form } from "./form";
 import type { Clicked } from "./frame/api";
 import { runJob } from "./job";
 import { type Finished, ProgressView, ResultPanel, showProblem } from "./job_panel";
-import { clearPart, showPart, upNotes } from "./part_panel";
+import { clearPart, showPart, showUpHint, upNotes } from "./part_panel";
 import { PickLists } from "./pick_lists";
 import { type Problem, problemOf } from "./problems";
 import { endingOf, knownEndings, makeCheck, makeProgram, makeSplit, type ModelFile } from "./request";
 import { colorOf, type PackedScene, packScene, regionName } from "./scene";
 import { Choice, commandOf, settings } from "./settings";
 import { marksOf, placeText, type Surface, surfacesOf } from "./surfaces";
-import { bytesText, counted } from "./text";
+import { bytesText, counted, durationText } from "./text";
+import { makeToolPanel } from "./tool_panel";
 import { View } from "./view";
 
 const maxFileBytes = 64 * 2 ** 20 - 4096; // a request has 64 MiB, and not all of it is the file
@@ -38,6 +39,7 @@ let problem: Problem | null = null;
 let clickMode = "look";
 let keys = { check: "", split: "", job: "" };
 let timer = 0;
+let ticker = 0;
 let isRunning = false;
 let isProgramShown = false;
 
@@ -91,7 +93,7 @@ function showCommand(): void {
 }
 
 function update(): void {
-  if (file === null) return;
+  if (file === null || isRunning) return;
   const checkKey = choice.keyOf(checkNames);
   if (checkKey !== keys.check) {
     keys.check = checkKey;
@@ -109,7 +111,7 @@ function update(): void {
 async function open(chosen: File): Promise<void> {
   jobCall.cancel();
   checkCall.cancel();
-  splitCall.cancel();
+  stopSplit();
   file = check = split = map = null;
   surfaces = [];
   keys = { check: "", split: "", job: "" };
@@ -119,7 +121,9 @@ async function open(chosen: File): Promise<void> {
   lists.setSurfaces([], false);
   lists.setRegions([]);
   setState("split-state", "");
+  setState("job-state", "");
   tell(null);
+  showEmpty("There is no picture.", "What is wrong stands beside the start button.");
   byId("file-name").textContent = chosen.name;
   byId("file-name").title = chosen.name;
   byId<HTMLButtonElement>("start").disabled = true;
@@ -142,9 +146,15 @@ async function open(chosen: File): Promise<void> {
     return;
   }
   byId<HTMLButtonElement>("start").disabled = false;
+  showEmpty("The part is read \u2026", "It is checked and divided into regions.");
   document.title = `${chosen.name} \u2013 Patchmill`;
   showCommand();
   update();
+}
+
+function showEmpty(title: string, more: string): void {
+  byId("empty-title").textContent = title;
+  byId("empty-text").textContent = more;
 }
 
 async function runCheck(of: ModelFile): Promise<void> {
@@ -157,6 +167,10 @@ async function runCheck(of: ModelFile): Promise<void> {
     setState("check-state", errors === 0 ? "" : `The part cannot be milled: it has ${counted(errors, "error")}.`, errors > 0);
     showPart(check, showPlace);
     form.describeUp(upNotes(check));
+    showUpHint(check, choice.get("up"), (up) => {
+      choice.set("up", up);
+      changed("up");
+    });
     setSurfaces();
   } catch (error) {
     setState("check-state", "The part was not checked.", true);
@@ -179,12 +193,17 @@ function setSurfaces(): void {
 // The regions
 
 async function runSplit(of: ModelFile): Promise<void> {
-  setState("split-state", "Regions are computed \u2026");
   const start = performance.now();
+  const tick = (): void => setState("split-state", `Regions are computed \u2026 ${durationText((performance.now() - start) / 1000)}`);
+  window.clearInterval(ticker);
+  ticker = window.setInterval(tick, 1000);
+  setState("split-state", "Regions are computed \u2026");
+  splitCall.cancel();
   try {
     const request = makeSplit(of, choice);
     const answer = await splitCall.run((signal) => analysis.splitRegions(request, { signal }));
     if (answer === null) return;
+    window.clearInterval(ticker);
     split = answer;
     const { setup, operations, name } = request.job!;
     const operation = operations[0]!;
@@ -212,9 +231,20 @@ async function runSplit(of: ModelFile): Promise<void> {
       await showScene(map, false);
     }
   } catch (error) {
-    setState("split-state", "No regions: see below.", true);
+    window.clearInterval(ticker);
+    setState("split-state", "No regions: see what is wrong.", true);
+    showEmpty("There is no picture.", "What is wrong stands beside the start button.");
     if (problem === null) tell(problemOf(error, "Computing the regions"));
   }
+}
+
+// Ends a running division into regions. It begins anew with the next update.
+function stopSplit(): void {
+  if (!splitCall.isRunning) return;
+  splitCall.cancel();
+  window.clearInterval(ticker);
+  setState("split-state", "");
+  keys.split = "";
 }
 
 async function showScene(scene: PackedScene | null, isProgram: boolean): Promise<void> {
@@ -267,9 +297,11 @@ async function start(): Promise<void> {
   if (file === null || isRunning) return;
   const of = file;
   tell(null);
+  setState("job-state", "");
   let progress: ProgressView | null = null;
   try {
     const request = makeProgram(of, choice);
+    stopSplit(); // the job makes its own, and has the processor for itself
     setRunning(true);
     results.set(null);
     progress = new ProgressView();
@@ -296,6 +328,7 @@ async function start(): Promise<void> {
   } finally {
     progress?.end();
     setRunning(false);
+    update();
   }
 }
 
@@ -307,7 +340,7 @@ function setRunning(on: boolean): void {
 
 function cancel(): void {
   jobCall.cancel();
-  setState("split-state", "The job was cancelled. Nothing of it is kept.");
+  setState("job-state", "The job was cancelled. Nothing of it is kept.");
 }
 
 // The page itself
@@ -378,6 +411,7 @@ window.addEventListener("hashchange", () => {
   readAddress();
   refresh();
 });
+makeToolPanel(choice, changed, (error) => tell(problemOf(error, "Reading the tool")));
 followFiles();
 readAddress();
 void loadPosts();

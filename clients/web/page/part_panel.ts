@@ -4,8 +4,9 @@ import type { Diagnostic } from "../gen/patchmill/v1/diagnostic_pb.js";
 import { Severity } from "../gen/patchmill/v1/diagnostic_pb.js";
 import type { CheckModelResponse } from "../gen/patchmill/v1/model_service_pb.js";
 import { UpAxis } from "../gen/patchmill/v1/setup_pb.js";
-import { brief, counted, inWords, placeOf, severityName } from "./text";
+import { brief, counted, fixed, inWords, placeOf, severityName } from "./text";
 
+const hundredths = (mm: number): string => String(Number(fixed(mm, 2)));
 const mostFindings = 200; // rows
 const toneOf = (severity: Severity): string => (severity === Severity.ERROR ? "bad" : severity === Severity.WARNING ? "warn" : "plain");
 
@@ -35,13 +36,35 @@ export function upNotes({ upDirections, bestUp }: CheckModelResponse): Map<strin
   return notes;
 }
 
+// Offers to turn the axis up that shows most, where another one is up.
+export function showUpHint({ bestUp }: CheckModelResponse, up: string, turn: (up: string) => void): void {
+  const best = upNames[bestUp];
+  const box = byId("up-hint");
+  box.hidden = best === undefined || up === best || !Object.values(upNames).includes(up);
+  if (best === undefined) return;
+  box.querySelector("span")!.textContent = `${best.toUpperCase().replace("-", "\u2212")} of the model shows more to the tool.`;
+  const button = box.querySelector("button")!;
+  button.textContent = "Turn it up";
+  button.onclick = () => turn(best);
+}
+
+// The picture of the faces, until the regions are there.
+function showFaces({ picture }: CheckModelResponse): void {
+  const image = byId<HTMLImageElement>("faces-picture");
+  if (image.src !== "") URL.revokeObjectURL(image.src);
+  image.hidden = picture === undefined;
+  if (picture === undefined) return image.removeAttribute("src");
+  image.src = URL.createObjectURL(new Blob([new Uint8Array(picture.data)], { type: "image/svg+xml" }));
+}
+
 export function showPart(check: CheckModelResponse, show: (finding: Diagnostic) => void): void {
   const { box, diagnostics } = check;
+  showFaces(check);
   const rows: [string, string][] = [];
   if (box?.min !== undefined && box.max !== undefined) {
     const [a, b] = [box.min, box.max];
-    const size = [b.xMm - a.xMm, b.yMm - a.yMm, b.zMm - a.zMm].map((v) => brief(v, 5)).join(" \u00d7 ");
-    rows.push(["size, mm", size], ["Z, mm", `${brief(a.zMm, 5)} to ${brief(b.zMm, 5)}`]);
+    const size = [b.xMm - a.xMm, b.yMm - a.yMm, b.zMm - a.zMm].map(hundredths).join(" \u00d7 ");
+    rows.push(["Z", `${hundredths(a.zMm)} to ${hundredths(b.zMm)} mm`]);
     byId("sum-part").textContent = `${size} mm`;
   } else byId("sum-part").textContent = "cannot be used";
   rows.push([check.faceCount > 0 ? "faces, patches" : "patches", check.faceCount > 0 ? `${check.faceCount}, ${check.patchCount}` : String(check.patchCount)]);
@@ -63,5 +86,7 @@ export function showPart(check: CheckModelResponse, show: (finding: Diagnostic) 
 export function clearPart(): void {
   byId("size").hidden = true;
   byId("findings-box").hidden = true;
+  byId("up-hint").hidden = true;
+  byId("faces-picture").hidden = true;
   byId("sum-part").textContent = "";
 }

@@ -77,6 +77,9 @@ export function problemOf(error: unknown, what: string): Problem {
   if (items.length === 0) items.push({ setting: null, field: "", text: error.rawMessage === "" ? (Code[error.code] ?? "unknown") : inWords(error.rawMessage) });
   const limit = info === undefined ? "" : limitText(info);
   if (limit !== "") items.push({ setting: null, field: "", text: limit });
+  if (info?.reason === "INVALID_FIELDS" && items.every((item) => item.setting === null)) {
+    return { title: `${what} failed`, items, advice: "Correct the file, or choose another one." };
+  }
   const advice = adviceOfReason[info?.reason ?? ""] ?? adviceOfCode[error.code] ?? "";
   return { title: `${what} failed`, items, advice };
 }

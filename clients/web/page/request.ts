@@ -133,21 +133,26 @@ const coolants: Record<string, Coolant> = { off: Coolant.OFF, flood: Coolant.FLO
 const defaultDiameter = 6;
 
 // Spindle speed and feeds that nobody stated are those of the command line: 12000 rpm, 1200 and 400 mm/min at D 6.
+export function defaultCuttingData(diameterMm: number, feed?: number): { spindle: number; feed: number; plunge: number } {
+  const larger = Math.min(1, defaultDiameter / diameterMm);
+  const smaller = Math.min(1, diameterMm / defaultDiameter);
+  const third = feed !== undefined ? feed / 3 : Math.round(1200 * smaller) / 3;
+  return { spindle: Math.max(1, Math.round(12000 * larger)), feed: Math.max(1, Math.round(1200 * smaller)), plunge: Math.max(1, Math.round(third)) };
+}
+
 function makeTool(choice: Choice): Tool {
   const diameterMm = numberOf(choice, "tool-diameter") ?? defaultDiameter;
   const number = numberOf(choice, "tool-number");
   const [spindle, feed, plunge] = [numberOf(choice, "spindle"), numberOf(choice, "feed"), numberOf(choice, "plunge-feed")];
-  const larger = Math.min(1, defaultDiameter / diameterMm);
-  const smaller = Math.min(1, diameterMm / defaultDiameter);
-  const third = feed !== undefined ? feed / 3 : Math.round(1200 * smaller) / 3;
+  const usual = defaultCuttingData(diameterMm, feed);
   const tool = create(ToolSchema, {
     number: number ?? 1,
     numberIsDefault: number === undefined,
     cutter: { case: "ballEnd", value: { diameterMm } },
     coolant: coolants[choice.get("coolant")] ?? Coolant.OFF,
-    spindleRpm: spindle ?? Math.max(1, Math.round(12000 * larger)),
-    feedMmPerMin: feed ?? Math.max(1, Math.round(1200 * smaller)),
-    plungeFeedMmPerMin: plunge ?? Math.max(1, Math.round(third)),
+    spindleRpm: spindle ?? usual.spindle,
+    feedMmPerMin: feed ?? usual.feed,
+    plungeFeedMmPerMin: plunge ?? usual.plunge,
     cuttingDataIsDefault: spindle === undefined || feed === undefined || plunge === undefined,
     holder: makeHolder(choice.get("holder")),
   });
@@ -274,6 +279,7 @@ export function makeCheck(file: ModelFile, choice: Choice): CheckModelRequest {
     setup: makePlacement(choice),
     tool: { cutter: { case: "ballEnd", value: { diameterMm: numberOf(choice, "tool-diameter") ?? defaultDiameter } } },
     withFaces: true,
+    withFacesPicture: true,
   });
 }
 

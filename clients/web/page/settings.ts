@@ -39,9 +39,9 @@ export const settings: readonly Setting[] = [
   s("shank-diameter", "tool", "number", "Shank diameter", { unit: "mm", hint: "as the ball", help: "Diameter above the flutes. A wider shank needs the flute length.", fields: ["shank_diameter_mm"] }),
   s("stickout", "tool", "number", "Stick-out", { unit: "mm", hint: "not stated", help: "Length from the tip to the holder. The report says how much is needed.", fields: ["stickout_mm"] }),
   s("holder", "tool", "text", "Holder", { hint: "25,32 20,32,50", help: "Segments from below, apart by spaces: LENGTH,DIAMETER, or LENGTH,LOWER,UPPER for a cone, in mm. It needs the stick-out.", fields: ["tool.holder", "holder[0].length_mm"] }),
-  s("spindle", "tool", "number", "Spindle", { unit: "1/min", hint: "12000 at D 6", help: "Spindle speed. Not stated: a default, with a warning.", fields: ["spindle_rpm"] }),
-  s("feed", "tool", "number", "Feed", { unit: "mm/min", hint: "1200 at D 6", help: "Cutting feed. Not stated: a default, with a warning.", fields: ["tool.feed_mm_per_min"] }),
-  s("plunge-feed", "tool", "number", "Plunge feed", { unit: "mm/min", hint: "a third", help: "Feed of steep descents. Not stated: a third of the feed, with a warning.", fields: ["plunge_feed_mm_per_min"] }),
+  s("spindle", "tool", "number", "Spindle", { unit: "1/min", hint: "default", help: "Spindle speed. Not stated: a default, with a warning.", fields: ["spindle_rpm"] }),
+  s("feed", "tool", "number", "Feed", { unit: "mm/min", hint: "default", help: "Cutting feed. Not stated: a default, with a warning.", fields: ["tool.feed_mm_per_min"] }),
+  s("plunge-feed", "tool", "number", "Plunge feed", { unit: "mm/min", hint: "default", help: "Feed of steep descents. Not stated: a third of the feed, with a warning.", fields: ["plunge_feed_mm_per_min"] }),
   s("coolant", "tool", "choice", "Coolant", { default: "off", choices: [["off", "off"], ["flood", "flood (M8)"], ["mist", "mist (M7)"], ["air", "air"]], help: "Coolant while cutting." }),
   s("tool-number", "tool", "whole", "Tool number", { hint: "1", help: "The T word. Not stated: 1, with a warning.", fields: ["tool.number"], isRare: true }),
   s("holder-clearance", "tool", "number", "Around the holder", { unit: "mm", hint: "0.5", help: "Distance kept around the holder and below it.", fields: ["holder_clearance_mm"], isRare: true }),
@@ -142,7 +142,10 @@ export class Choice {
     const found = new Map<string, string[]>();
     const unknown: string[] = [];
     for (const [name, value] of new URLSearchParams(hash.replace(/^#/, ""))) {
-      if (byName.has(name)) found.set(name, [...(found.get(name) ?? []), value.slice(0, 20_000)]);
+      const setting = byName.get(name);
+      // As on the command line, commas divide names; a region has commas in its place.
+      const values = setting?.kind === "list" && name !== "region" ? value.split(",") : [value];
+      if (setting !== undefined) found.set(name, [...(found.get(name) ?? []), ...values.map((v) => v.slice(0, 20_000))]);
       else if (name !== "") unknown.push(name);
     }
     this.clear();

@@ -17,7 +17,7 @@ function describe({ face, areaMm2, minTiltDeg, maxTiltDeg }: FaceInfo): string {
   const kind = face === undefined || face.kind === SurfaceKind.UNSPECIFIED ? "" : shortName(SurfaceKind, face.kind).toLowerCase();
   const radius = face !== undefined && face.radiusMm > 0 ? ` R ${brief(face.radiusMm)}` : "";
   const [low, high] = [Math.round(minTiltDeg), Math.round(maxTiltDeg)];
-  const tilt = low === high ? `${low}\u00b0` : `${low} to ${high}\u00b0`;
+  const tilt = low !== high ? `${low} to ${high}\u00b0` : low === 0 ? "level" : low === 90 ? "upright" : low === 180 ? "looks down" : `${low}\u00b0`;
   const name = face === undefined || face.name === "" ? "" : `${face.name}, `;
   return `${name}${face?.hollow === true ? "hollow " : ""}${kind}${radius}, ${brief(areaMm2)} mm2, ${tilt}`;
 }
