@@ -181,7 +181,7 @@ export class Form {
     this.#rename(new Map(upNames.map(([value, text]) => [value, notes.has(value) ? `${text}: ${notes.get(value)}` : text])));
   }
 
-  // The controls the list of dialects.
+  // The dialects of the server, in place of the one that all servers have.
   setPosts(posts: readonly { name: string; title: string }[]): void {
     const select = byId<HTMLSelectElement>("set-post");
     select.replaceChildren(...posts.map(({ name, title }) => option(name, title)));

@@ -42,6 +42,7 @@ let timer = 0;
 let ticker = 0;
 let isRunning = false;
 let isProgramShown = false;
+let hasPosts = false;
 
 const checkCall = new LatestCall();
 const splitCall = new LatestCall();
@@ -150,6 +151,7 @@ async function open(chosen: File): Promise<void> {
   document.title = `${chosen.name} \u2013 Patchmill`;
   showCommand();
   update();
+  void loadPosts();
 }
 
 function showEmpty(title: string, more: string): void {
@@ -335,6 +337,7 @@ async function start(): Promise<void> {
 function setRunning(on: boolean): void {
   isRunning = on;
   byId<HTMLButtonElement>("start").disabled = on || file === null;
+  byId("start").hidden = on;
   byId("cancel").hidden = !on;
 }
 
@@ -385,9 +388,11 @@ function readAddress(): void {
 }
 
 async function loadPosts(): Promise<void> {
+  if (hasPosts) return;
   try {
     const { posts } = await toolpaths.listPosts({});
     form.setPosts(posts);
+    hasPosts = true;
   } catch (error) {
     tell(problemOf(error, "Asking patchmilld for its dialects"));
   }
@@ -397,11 +402,13 @@ const darkQuery = matchMedia("(prefers-color-scheme: dark)");
 setDark(darkQuery.matches);
 darkQuery.addEventListener("change", () => setDark(darkQuery.matches));
 byId("dark").addEventListener("click", () => setDark(document.documentElement.dataset.theme !== "dark"));
-byId("reset").addEventListener("click", () => {
-  choice.clear();
-  changed("");
-});
+// As a new address, so that the browser's way back brings the settings back.
+byId("reset").addEventListener("click", () => (location.hash = ""));
 for (const button of document.querySelectorAll<HTMLElement>("[data-click]")) button.addEventListener("click", () => setClickMode(button.dataset.click!));
+// Enter ends the input of a value; a job is started by its button alone.
+byId("settings").addEventListener("keydown", (event) => {
+  if (event.key === "Enter" && event.target instanceof HTMLInputElement) event.preventDefault();
+});
 byId("settings").addEventListener("submit", (event) => {
   event.preventDefault();
   void start();

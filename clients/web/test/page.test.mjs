@@ -115,6 +115,17 @@ test("a CAD part: findings and size, a click on a face, regions anew, a job, and
   const end = await inFrame(page, "state");
   assert.ok(Math.abs(end.time - end.total) < 1e-6 && end.total > 1);
   assert.match(await frame.locator("#lines").textContent(), /M30|%/);
+  // What lies under the pointer has the values of the report.
+  const { max_leftover_mm: most, max_gouge_mm: deepest } = JSON.parse(report.bytes);
+  const picked = [];
+  for (let x = 60; x < 660; x += 40) for (let y = 60; y < 480; y += 40) picked.push(await inFrame(page, "pick", x, y));
+  const surfaces = picked.filter((p) => p?.kind === "surface");
+  assert.ok(surfaces.length > 5);
+  for (const { surface, gouge, leftover, unreachable } of surfaces) {
+    assert.match(surface, /^f\d$/);
+    assert.ok(gouge <= deepest + 1e-4);
+    if (surface === face && unreachable === "") assert.ok(leftover <= most + 1e-4, `${leftover} at a place that the ball reaches`);
+  }
   // Clicks on the part come back when they are wanted.
   await page.click("#show-program");
   await page.waitForFunction(() => document.querySelector("#frames iframe:not(.next)").title.includes("part"));
