@@ -114,11 +114,13 @@ function makeOpen(setting: Setting, usual: [string, string][], otherText: string
   both.append(select, input);
   const { row, error } = labelled(setting, both, select.id);
   let isOther = false;
+  let last: string | null = null;
   const fill = (): void => {
     const value = choice.get(setting.name);
     const isUsual = usual.some(([v]) => v === value);
-    if (isUsual && document.activeElement !== input) isOther = isOther && document.activeElement === select;
-    if (!isUsual) isOther = true;
+    // A value that came from elsewhere decides; one that is typed does not close its field.
+    if (value !== last && document.activeElement !== input) isOther = !isUsual;
+    last = value;
     select.value = isOther ? "\u0000" : value;
     input.hidden = !isOther;
     if (document.activeElement !== input) input.value = isOther && !isUsual ? value : "";

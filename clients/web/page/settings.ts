@@ -67,7 +67,7 @@ export const settings: readonly Setting[] = [
   s("boundary-offset", "area", "number", "Offset of the boundary", { default: "0", unit: "mm", help: "Above 0 it widens the boundary, below 0 it narrows it.", fields: ["boundary_offset_mm"], isRare: true }),
   s("region", "area", "list", "Regions", { help: "Changes to single regions: X,Y,Z:off, or X,Y,Z:contour, X,Y,Z:zigzag.", fields: ["region_overrides"] }),
 
-  s("strategy", "passes", "choice", "Strategy", { default: "auto", choices: [["auto", "contours on steep, lines on gentle areas"], ["contour", "contours everywhere"], ["zigzag", "zig-zag lines everywhere"]], help: "Which passes cut which areas.", fields: ["strategy"] }),
+  s("strategy", "passes", "choice", "Strategy", { default: "auto", choices: [["auto", "by slope"], ["contour", "contours only"], ["zigzag", "lines only"]], help: "By slope: contours cut steep areas, zig-zag lines gentle ones. Or one of them cuts everything.", fields: ["strategy"] }),
   s("steep-angle", "passes", "number", "Steep from", { default: "45", unit: "\u00b0", help: "Slope from which on contours cut instead of zig-zag lines.", fields: ["steep_angle_deg"] }),
   s("zigzag-angle", "passes", "number", "Direction of lines", { default: "0", unit: "\u00b0", help: "Direction of zig-zag lines from +X, counter-clockwise.", fields: ["zigzag_angle_deg"] }),
   s("auto-angle", "passes", "flag", "Find the fastest direction", { help: "The lines of each region run in the direction that takes the least time. The job is planned some 20 times.", fields: ["zigzag_angle_auto"] }),

@@ -370,6 +370,15 @@ test("the address holds the settings, the page is dark and narrow when it should
   assert.equal((await inFrame(page, "state")).theme, "dark");
   assert.deepEqual((await inFrame(page, "state")).layers.filter((l) => l.id === "clamps").length, 1);
   assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), "nothing is cut off at the side");
+  await openGroups(page);
+  await page.selectOption("#set-stock", { label: "block,MARGIN or cylinder,D \u2026" });
+  await page.keyboard.type("cylinder,90");
+  assert.equal(hashOf(page).get("stock"), "cylinder,90");
+  await page.selectOption("#set-stock", "block,2");
+  assert.equal(hashOf(page).get("stock"), "block,2");
+  await page.waitForTimeout(500);
+  await regionsShown(page);
+  await page.waitForFunction(() => document.querySelector("#frames iframe:not(.next)").contentWindow.patchmillFrame.state().layers.some((l) => l.id === "stock"));
   await page.click("#dark");
   assert.equal((await inFrame(page, "state")).theme, "light");
   await page.click("#reset");

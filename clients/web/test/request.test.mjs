@@ -1,0 +1,92 @@
+// The requests of the page are those of the command line: both resolve to the same digest, whatever is set.
+import assert from "node:assert/strict";
+import { execFile } from "node:child_process";
+import { readFile, writeFile } from "node:fs/promises";
+import { join } from "node:path";
+import { promisify } from "node:util";
+import { after, before, test } from "node:test";
+import { createClient } from "@connectrpc/connect";
+import { createConnectTransport } from "@connectrpc/connect-node";
+import { build } from "esbuild";
+import { ToolpathService } from "../gen/patchmill/v1/toolpath_service_pb.js";
+import { bin, needBuild, startBackend, startWeb, withFolder } from "./support.mjs";
+
+// The sources of the page as modules of Node.js.
+async function load(...files) {
+  const contents = files.map((file) => `export * from "./page/${file}";`).join("\n");
+  const bundle = await build({ stdin: { contents, resolveDir: new URL("..", import.meta.url).pathname, loader: "ts" }, bundle: true, write: false, format: "esm", platform: "node" });
+  return import(`data:text/javascript;base64,${Buffer.from(bundle.outputFiles[0].text).toString("base64")}`);
+}
+
+const points = [0, 0, 0, 0, 20, 6, 0, 40, 6, 0, 60, 0, 20, 0, 6, 20, 20, 30, 20, 40, 30, 20, 60, 6, 40, 0, 6, 40, 20, 30, 40, 40, 30, 40, 60, 6, 60, 0, 0, 60, 20, 6, 60, 40, 6, 60, 60, 0];
+const shifted = points.map((v, i) => (i % 3 === 0 ? v + 60 : v));
+const patch = (id, p) => ({ id, bezier: { degree_u: 3, degree_v: 3, points: p } });
+const model = JSON.stringify({ length_unit: "LENGTH_UNIT_MILLIMETER", patches: [patch("one", points), patch("two", shifted)] });
+
+const coarse = { scallop: "0.8", tolerance: "0.3" };
+const cases = {
+  "defaults, but coarse": {},
+  "tool": { "tool-diameter": "4", "flute-length": "12.5", "shank-diameter": "6", stickout: "40", holder: "20,30 25,30,45.5", "holder-clearance": "0.7", spindle: "9000", feed: "800", "plunge-feed": "200", coolant: "flood", "tool-number": "12" },
+  "some cutting data": { "tool-diameter": "9.7", feed: "777" },
+  "a small tool": { "tool-diameter": "2.3", leave: "0.1" },
+  "placement": { up: "-z", scale: "0.5", zero: "top-center", translate: "1.5,-2,3e-1" },
+  "zero at a point": { zero: "1,2.25,-3", "work-offset": "G57" },
+  "stock": { stock: "cylinder,180,60,30", allowance: "0.4", "stock-top": "40", "accept-depth": "30", obstacle: ["vice=10,2: -40,-20 -30,-20 -30,20", "9: 150,0 160,0 160,10 150,10"] },
+  "a block": { stock: "block", allowance: "0.3", "accept-depth": "30" },
+  "selection": { only: ["one"], avoid: ["#1"], "avoid-margin": "0.5", floor: "-3", top: "60" },
+  "outside": { outside: "1", "max-unreached": "80" },
+  "boundary": { boundary: ["5,5 100,5 100,50 5,50", "20,20 30,20 30,30"], "boundary-mode": "inside", "boundary-offset": "1.5" },
+  "regions": { region: ["30,30,19.125:contour"] },
+  "a region off": { region: ["30,30,19.125:off"] },
+  "lines": { strategy: "zigzag", "zigzag-angle": "-30.5", "one-way": "1", edges: "roll", detail: "0.9" },
+  "contours": { strategy: "contour", direction: "either", spirals: "1", edges: "extend", "steep-angle": "30", clearance: "12" },
+  "post": { post: "haas", "program-number": "42", "no-arcs": "1", "restart-points": "1", "line-numbers": "5" },
+};
+
+let backend;
+let web;
+before(async () => {
+  needBuild();
+  backend = await startBackend();
+  web = await startWeb(backend.port);
+});
+after(async () => {
+  await web?.stop();
+  await backend?.stop();
+});
+
+test("page and command line ask for the same job", { timeout: 80_000 }, async () => {
+  const { Choice, commandOf, makeProgram, settings } = await load("settings.ts", "request.ts");
+  const client = createClient(ToolpathService, createConnectTransport({ baseUrl: web.url.replace(/\/$/, ""), httpVersion: "1.1", useBinaryFormat: true }));
+  const file = { name: "two.json", bytes: new TextEncoder().encode(model) };
+  const seen = new Set();
+  await withFolder(async (folder) => {
+    await writeFile(join(folder, file.name), model);
+    for (const [title, values] of Object.entries(cases)) {
+      const choice = new Choice();
+      for (const [name, value] of Object.entries({ ...coarse, ...values })) {
+        choice.set(name, ...[value].flat());
+        seen.add(name);
+      }
+      // The address brings them back.
+      const again = new Choice();
+      assert.deepEqual(again.fromHash(choice.toHash()), []);
+      assert.equal(again.toHash(), choice.toHash());
+      const request = makeProgram(file, again);
+      const command = commandOf(again, file.name, "out.ngc");
+      await promisify(execFile)("bash", ["-c", `${command} --quiet`], { cwd: folder, env: { ...process.env, PATH: `${bin}:${process.env.PATH}` } }).catch((error) => {
+        throw new Error(`${title}: ${command}: ${error.stderr}`);
+      });
+      // Some controls break their comments into short lines.
+      const theirs = /request sha256:\W*([0-9a-f]{16,})/i.exec(await readFile(join(folder, "out.ngc"), "utf8"))[1].toLowerCase();
+      let ours = "";
+      for await (const { event } of client.generateProgram({ ...request, validateOnly: true })) {
+        if (event.case === "accepted") ours = Buffer.from(event.value.requestSha256).toString("hex");
+      }
+      assert.ok(ours.startsWith(theirs), `${title}: ${command}`);
+    }
+  });
+  // Nothing of the table is left out, but what needs a CAD file or plans a job twenty times.
+  const missing = settings.map((s) => s.name).filter((name) => !seen.has(name) && !["skip-face", "auto-angle"].includes(name));
+  assert.deepEqual(missing, []);
+});
