@@ -303,6 +303,7 @@ async function start(): Promise<void> {
   let progress: ProgressView | null = null;
   try {
     const request = makeProgram(of, choice);
+    showEmpty("The job runs.", "The program is shown when it is verified.");
     stopSplit(); // the job makes its own, and has the processor for itself
     setRunning(true);
     results.set(null);
