@@ -43,6 +43,7 @@ let ticker = 0;
 let isRunning = false;
 let isProgramShown = false;
 let hasPosts = false;
+let opened = 0; // number of files that were chosen
 
 const checkCall = new LatestCall();
 const splitCall = new LatestCall();
@@ -110,6 +111,7 @@ function update(): void {
 // The part
 
 async function open(chosen: File): Promise<void> {
+  const own = ++opened;
   jobCall.cancel();
   checkCall.cancel();
   stopSplit();
@@ -141,7 +143,9 @@ async function open(chosen: File): Promise<void> {
     return;
   }
   try {
-    file = { name: chosen.name, bytes: new Uint8Array(await chosen.arrayBuffer()) };
+    const bytes = new Uint8Array(await chosen.arrayBuffer());
+    if (own !== opened) return; // another file was chosen meanwhile
+    file = { name: chosen.name, bytes };
   } catch (error) {
     tell(problemOf(error, "Reading the file"));
     return;

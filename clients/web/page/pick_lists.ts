@@ -17,10 +17,25 @@ export class PickLists {
     this.#choice = choice;
     this.#changed = changed;
     this.#filter.addEventListener("input", () => this.fill());
+    byId("text-mill").addEventListener("click", () => this.#takeText("only"));
+    byId("text-avoid").addEventListener("click", () => this.#takeText("avoid"));
     byId("clear-area").addEventListener("click", () => {
       for (const name of ["only", "avoid", "region"]) choice.set(name);
       changed("only");
     });
+  }
+
+  // "f12+" is a face with its smooth neighbours; the server knows the other texts of a selection, too.
+  #takeText(list: "only" | "avoid"): void {
+    const input = byId<HTMLInputElement>("by-text");
+    const texts = input.value.split(",").map((t) => t.trim()).filter((t) => t !== "");
+    if (texts.length === 0) return;
+    for (const text of texts) {
+      this.#choice.toggle(list === "only" ? "avoid" : "only", text, false);
+      this.#choice.toggle(list, text, true);
+    }
+    input.value = "";
+    this.#changed(list);
   }
 
   setSurfaces(surfaces: readonly Surface[], areFaces: boolean): void {

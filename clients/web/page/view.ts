@@ -20,7 +20,8 @@ export class View {
   #isDark = false;
 
   constructor(events: ViewEvents) {
-    this.#events = events;
+    // A file of the frame cannot be read any more when the frame is gone; a copy of this page can.
+    this.#events = { ...events, onFile: (file) => events.onFile(new File([file], file.name)) };
   }
 
   // Shows a scene. The view stays when the part lies as before.

@@ -152,6 +152,25 @@ test("regions are switched off by a click and in the list; a plane face is turne
   await row.locator("select").selectOption("");
   assert.equal(hashOf(page).get("region"), null);
 
+  // Faces by a text, and the part dropped anew on the picture: the settings stay.
+  await page.fill("#by-text", "kind=sphere, f1+");
+  await page.click("#text-avoid");
+  assert.deepEqual(hashOf(page).getAll("avoid"), ["kind=sphere", "f1+"]);
+  assert.match(await text(page, "surfaces"), /kind=sphere/);
+  await page.click('#surfaces button[aria-label="avoid f1+"]');
+  await page.click('#surfaces button[aria-label="avoid kind=sphere"]');
+  assert.equal(hashOf(page).get("avoid"), null);
+  const bytes = [...(await readFile(cadPart("dome.step")))];
+  await page.evaluate((content) => {
+    const { contentWindow, contentDocument } = document.querySelector("#frames iframe:not(.next)");
+    const data = new contentWindow.DataTransfer();
+    data.items.add(new contentWindow.File([new Uint8Array(content)], "dropped.step"));
+    contentDocument.dispatchEvent(new contentWindow.DragEvent("drop", { dataTransfer: data, cancelable: true }));
+  }, bytes);
+  await page.waitForFunction(() => document.getElementById("file-name").textContent === "dropped.step");
+  await regionsShown(page);
+  await page.waitForSelector("#frames iframe:not(.next)");
+
   // The front face lies at y = 0; after the turn it is the highest.
   await page.waitForTimeout(500);
   await regionsShown(page);
