@@ -22,12 +22,16 @@ export function reportText(report: Report): string {
   return `${toJsonString(ReportSchema, report, { alwaysEmitImplicit: true, useProtoFieldName: true, prettySpaces: 1 })}\n`;
 }
 
-function base64(block: ArrayBuffer): string {
-  const bytes = new Uint8Array(block);
+function base64(bytes: Uint8Array): string {
   const parts: string[] = [];
   const step = 3 * 8192;
   for (let at = 0; at < bytes.length; at += step) parts.push(btoa(String.fromCharCode(...bytes.subarray(at, at + step))));
   return parts.join("");
+}
+
+async function gzip(block: ArrayBuffer): Promise<Uint8Array> {
+  const packed = new Blob([block]).stream().pipeThrough(new CompressionStream("gzip"));
+  return new Uint8Array(await new Response(packed).arrayBuffer());
 }
 
 // The viewer's page with the scene in it, as --preview FILE.html writes it.
@@ -36,7 +40,7 @@ export async function pageText({ header, block }: PackedScene): Promise<string> 
   if (!response.ok) throw new Error(`The template of the 3-D page cannot be loaded (${response.status}).`);
   const template = await response.text();
   // No text of a client may end the script that holds the header.
-  const json = JSON.stringify(header).replaceAll("<", "\\u003c");
-  const parts: Record<string, string> = { "@PATCHMILL_SCENE@": json, "@PATCHMILL_DATA@": base64(block) };
+  const json = JSON.stringify({ ...header, data_encoding: "gzip" }).replaceAll("<", "\\u003c");
+  const parts: Record<string, string> = { "@PATCHMILL_SCENE@": json, "@PATCHMILL_DATA@": base64(await gzip(block)) };
   return template.replace(/@PATCHMILL_(?:SCENE|DATA)@/g, (marker) => parts[marker]!);
 }

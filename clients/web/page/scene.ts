@@ -58,7 +58,7 @@ export function regionName(region: Region): string {
   if (region.unreachableReason !== UnreachableReason.UNSPECIFIED) {
     return `${shortName(UnreachableReason, region.unreachableReason)}: ${fixed(region.areaMm2, 1)} mm2, ${fixed(region.deepestLeftoverMm, 2)} mm stays`;
   }
-  return `${shortName(RegionKind, region.kind)}, ${shortName(Slope, region.slope)}: ${fixed(region.areaMm2, 1)} mm2`;
+  return `${shortName(RegionKind, region.kind)}, ${shortName(Slope, region.slope)}`.toLowerCase() + `: ${fixed(region.areaMm2, 1)} mm2`;
 }
 
 // Regions that are not cut are grey.

@@ -147,7 +147,7 @@ test("regions are switched off by a click and in the list; a plane face is turne
   await page.waitForFunction(() => [...document.querySelectorAll("#regions select")].some((s) => s.value === "off"));
   await page.waitForTimeout(500);
   await regionsShown(page);
-  const row = page.locator("#regions li", { has: page.locator("select") }).filter({ hasText: "NEUTRAL, GENTLE" }).first();
+  const row = page.locator("#regions li", { has: page.locator("select") }).filter({ hasText: "neutral, gentle" }).first();
   assert.equal(await row.locator("select").inputValue(), "off", "the region is still the one that was clicked");
   await row.locator("select").selectOption("");
   assert.equal(hashOf(page).get("region"), null);
