@@ -31,6 +31,8 @@ if [ ! -x "$bin/patchmilld" ]; then
   exit 1
 fi
 
+[ -x "$bin/patchmill-import" ] || say "$bin/patchmill-import is missing: STEP and IGES files cannot be read (scripts/setup.sh cad, then build)"
+
 # Installs what a lock file names, if that was not done yet.
 install() {
   if cmp -s "$1/package-lock.json" "$1/node_modules/.installed-lock"; then return; fi

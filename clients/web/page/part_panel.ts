@@ -4,7 +4,7 @@ import type { Diagnostic } from "../gen/patchmill/v1/diagnostic_pb.js";
 import { Severity } from "../gen/patchmill/v1/diagnostic_pb.js";
 import type { CheckModelResponse } from "../gen/patchmill/v1/model_service_pb.js";
 import { UpAxis } from "../gen/patchmill/v1/setup_pb.js";
-import { brief, counted, fixed, inWords, placeOf, severityName } from "./text";
+import { brief, counted, fixed, inWords, placeOf, sentence, severityName } from "./text";
 
 const hundredths = (mm: number): string => String(Number(fixed(mm, 2)));
 const mostFindings = 200; // rows
@@ -14,7 +14,7 @@ export function findingRow(finding: Diagnostic, show: ((finding: Diagnostic) => 
   const row = make("li");
   row.dataset.tone = toneOf(finding.severity);
   const place = placeOf(finding);
-  row.append(make("b", "", severityName(finding.severity)), make("code", "", ` ${finding.code}${place === "" ? "" : `, ${place}`}`), make("p", "", inWords(finding.message)));
+  row.append(make("b", "", severityName(finding.severity)), make("code", "", ` ${finding.code}${place === "" ? "" : `, ${place}`}`), make("p", "", sentence(inWords(finding.message))));
   if (finding.where?.point !== undefined && show !== null) {
     const button = make("button", "", "Show the place");
     button.type = "button";

@@ -2,7 +2,7 @@
 import { Code, ConnectError } from "@connectrpc/connect";
 import { type ErrorInfo, ErrorInfoSchema } from "../gen/patchmill/v1/status_pb.js";
 import { settings } from "./settings";
-import { brief, inWords } from "./text";
+import { brief, inWords, sentence } from "./text";
 import { SettingError } from "./values";
 
 export interface ProblemItem {
@@ -74,11 +74,16 @@ export function problemOf(error: unknown, what: string): Problem {
   if (info !== undefined && info.violationCount > items.length) {
     items.push({ setting: null, field: "", text: `${info.violationCount - items.length} more fields are wrong.` });
   }
-  if (items.length === 0) items.push({ setting: null, field: "", text: error.rawMessage === "" ? (Code[error.code] ?? "unknown") : inWords(error.rawMessage) });
+  if (items.length === 0) items.push({ setting: null, field: "", text: error.rawMessage === "" ? (Code[error.code] ?? "unknown") : sentence(inWords(error.rawMessage)) });
   const limit = info === undefined ? "" : limitText(info);
   if (limit !== "") items.push({ setting: null, field: "", text: limit });
   if (info?.reason === "INVALID_FIELDS" && items.every((item) => item.setting === null)) {
     return { title: `${what} failed`, items, advice: "Correct the file, or choose another one." };
+  }
+  if (info?.reason === "NOT_IMPLEMENTED" && items.every((item) => item.field === "")) {
+    const isReader = /importer|STEP|IGES/.test(error.rawMessage);
+    const reader = "Install the reader of CAD files with scripts/setup.sh cad, build, and start again. Parts as .json or .pb need no reader.";
+    return { title: `${what} failed`, items, advice: isReader ? reader : "This version of patchmilld cannot do it." };
   }
   const advice = adviceOfReason[info?.reason ?? ""] ?? adviceOfCode[error.code] ?? "";
   return { title: `${what} failed`, items, advice };

@@ -40,6 +40,12 @@ export function inWords(message: string): string {
   });
 }
 
+// A message of the server as a sentence. One that begins with the path of a field stays.
+export function sentence(message: string): string {
+  const isProse = /^[a-z]+[ ,:]/.test(message);
+  return `${isProse ? message[0]!.toUpperCase() + message.slice(1) : message}${/[.!?]$/.test(message) ? "" : "."}`;
+}
+
 // Where a finding is: a face, a patch, a line.
 export function placeOf({ where }: Diagnostic): string {
   if (where === undefined) return "";
