@@ -42,7 +42,7 @@ export function inWords(message: string): string {
 
 // A message of the server as a sentence. One that begins with the path of a field stays.
 export function sentence(message: string): string {
-  const isProse = /^[a-z]+[ ,:]/.test(message);
+  const isProse = /^(?!patchmill)[a-z]+[ ,:]/.test(message);
   return `${isProse ? message[0]!.toUpperCase() + message.slice(1) : message}${/[.!?]$/.test(message) ? "" : "."}`;
 }
 

@@ -26,21 +26,18 @@ const model = JSON.stringify({ length_unit: "LENGTH_UNIT_MILLIMETER", patches: [
 const coarse = { scallop: "0.8", tolerance: "0.3" };
 const cases = {
   "defaults, but coarse": {},
-  "tool": { "tool-diameter": "4", "flute-length": "12.5", "shank-diameter": "6", stickout: "40", holder: "20,30 25,30,45.5", "holder-clearance": "0.7", spindle: "9000", feed: "800", "plunge-feed": "200", coolant: "flood", "tool-number": "12" },
-  "some cutting data": { "tool-diameter": "9.7", feed: "777" },
-  "a small tool": { "tool-diameter": "2.3", leave: "0.1" },
-  "placement": { up: "-z", scale: "0.5", zero: "top-center", translate: "1.5,-2,3e-1" },
-  "zero at a point": { zero: "1,2.25,-3", "work-offset": "G57" },
-  "stock": { stock: "cylinder,180,60,30", allowance: "0.4", "stock-top": "40", "accept-depth": "30", obstacle: ["vice=10,2: -40,-20 -30,-20 -30,20", "9: 150,0 160,0 160,10 150,10"] },
-  "a block": { stock: "block", allowance: "0.3", "accept-depth": "30" },
+  "tool and post": {
+    "tool-diameter": "4", "flute-length": "12.5", "shank-diameter": "6", stickout: "40", holder: "20,30 25,30,45.5", "holder-clearance": "0.7", spindle: "9000", feed: "800", "plunge-feed": "200", coolant: "flood", "tool-number": "12",
+    post: "haas", "program-number": "42", "no-arcs": "1", "restart-points": "1", "line-numbers": "5",
+  },
+  "some cutting data, a point as zero, lines": { "tool-diameter": "9.7", feed: "777", zero: "1,2.25,-3", "work-offset": "G57", strategy: "zigzag", "zigzag-angle": "-30.5", "one-way": "1", edges: "roll", detail: "0.9" },
+  "a small tool, contours": { "tool-diameter": "3.3", leave: "0.1", direction: "either", spirals: "1", edges: "extend", "steep-angle": "30", clearance: "12" },
+  "placement, outer walls": { up: "-z", scale: "0.5", zero: "top-center", translate: "1.5,-2,3e-1", outside: "1", "max-unreached": "80" },
+  "round stock and clamps": { stock: "cylinder,180,60,30", allowance: "0.4", "stock-top": "40", "accept-depth": "30", obstacle: ["vice=10,2: -40,-20 -30,-20 -30,20", "9: 150,0 160,0 160,10 150,10"] },
+  "a block, a region with its own passes": { stock: "block", allowance: "0.3", "accept-depth": "30", region: ["30,30,19.125:contour"] },
   "selection": { only: ["one"], avoid: ["#1"], "avoid-margin": "0.5", floor: "-3", top: "60" },
-  "outside": { outside: "1", "max-unreached": "80" },
   "boundary": { boundary: ["5,5 100,5 100,50 5,50", "20,20 30,20 30,30"], "boundary-mode": "inside", "boundary-offset": "1.5" },
-  "regions": { region: ["30,30,19.125:contour"] },
   "a region off": { region: ["30,30,19.125:off"] },
-  "lines": { strategy: "zigzag", "zigzag-angle": "-30.5", "one-way": "1", edges: "roll", detail: "0.9" },
-  "contours": { strategy: "contour", direction: "either", spirals: "1", edges: "extend", "steep-angle": "30", clearance: "12" },
-  "post": { post: "haas", "program-number": "42", "no-arcs": "1", "restart-points": "1", "line-numbers": "5" },
 };
 
 let backend;

@@ -31,9 +31,14 @@ export function freePort() {
   });
 }
 
+// A test that fails stops nothing itself.
+const children = new Set();
+process.on("exit", () => children.forEach((child) => child.kill()));
+
 // Runs a program until it is told to stop. Its lines come to `onLine`.
 function run(command, args, onLine = () => {}) {
   const child = spawn(command, args, { stdio: ["ignore", "pipe", "pipe"] });
+  children.add(child);
   for (const stream of [child.stdout, child.stderr]) {
     let rest = "";
     stream.setEncoding("utf8").on("data", (text) => {
