@@ -172,8 +172,6 @@ test("regions are switched off by a click and in the list; a plane face is turne
   await page.waitForSelector("#frames iframe:not(.next)");
 
   // The front face lies at y = 0; after the turn it is the highest.
-  await page.waitForTimeout(500);
-  await regionsShown(page);
   await page.click('[data-click="up"]');
   await clickPoint(page, [15, 0, 4]);
   await page.waitForFunction(() => location.hash.includes("up="));
