@@ -55,11 +55,12 @@ if [ "$what" = all ] && [ ! -x node_modules/.bin/buf ]; then
   npm install --no-save --no-package-lock --no-audit --no-fund --loglevel=error
 fi
 # What is installed is what package-lock.json says, by its hashes.
-viewer=clients/viewer
-if { [ "$what" = all ] || [ "$what" = page ]; } &&
-   ! cmp -s "$viewer/package-lock.json" "$viewer/node_modules/.installed-lock"; then
-  echo "setup: installing the tools of the 3-D page (versions pinned in $viewer/package-lock.json)"
-  npm ci --prefix "$viewer" --no-audit --no-fund --loglevel=error
-  cp "$viewer/package-lock.json" "$viewer/node_modules/.installed-lock"
-fi
+tools() {
+  cmp -s "$1/package-lock.json" "$1/node_modules/.installed-lock" && return
+  echo "setup: installing the tools of $1 (versions pinned in its package-lock.json)"
+  npm ci --prefix "$1" --no-audit --no-fund --loglevel=error
+  cp "$1/package-lock.json" "$1/node_modules/.installed-lock"
+}
+case "$what" in all | page) tools clients/viewer ;; esac
+case "$what" in all) tools clients/web ;; esac
 echo "setup: done"
