@@ -15,10 +15,12 @@
 namespace patchmill {
 namespace {
 
-constexpr int kMostHalvings = 5;     // of a cell along one axis, where the label changes
-constexpr int kMostCells = 1 << 15;  // along one axis of a piece, before labels divide them
-constexpr double kUpright = 1e-6;    // z of a normal that may point to either side
-constexpr double kBesideRim = 1e-3;  // of the way to the middle of the piece
+constexpr int kMostHalvings = 5;             // of a cell along one axis, where the label changes
+constexpr int kMostCells = 1 << 15;          // along one axis of a piece, before labels divide them
+constexpr int kBorderParts = 8;              // of a cell's side on the border of the piece, where it bends
+constexpr double kBorderChord = 1.0 / 16.0;  // of the chord: neighbours meet there
+constexpr double kUpright = 1e-6;            // z of a normal that may point to either side
+constexpr double kBesideRim = 1e-3;          // of the way to the middle of the piece
 
 // The longest of three lines of the piece along an axis, mm.
 double LengthAlong(const Piece& piece, bool along_u) {
@@ -60,8 +62,10 @@ class PieceMesher {
         params_(params),
         run_(run),
         cells_(CellsOf(piece_, params)),
-        wide_(divide ? Parts(cells_.u) : 1),
-        high_(divide ? Parts(cells_.v) : 1),
+        label_parts_u_(divide ? Parts(cells_.u) : 1),
+        label_parts_v_(divide ? Parts(cells_.v) : 1),
+        wide_(std::max(kBorderParts, label_parts_u_)),
+        high_(std::max(kBorderParts, label_parts_v_)),
         steps_u_(cells_.u * wide_),
         steps_v_(cells_.v * high_) {
     mesh_.piece = id;
@@ -72,6 +76,12 @@ class PieceMesher {
       for (int j = 0; j < cells_.v; ++j) Divide({i * wide_, j * high_, wide_, high_});
     }
     for (std::size_t k = 0; k < rects_.size() && !Stopped(k); ++k) AddCorners(rects_[k]);
+    for (int i = 0; i < cells_.u; ++i) {
+      for (const int j : {0, steps_v_}) RefineBorder({i * wide_, j}, {(i + 1) * wide_, j});
+    }
+    for (int j = 0; j < cells_.v; ++j) {
+      for (const int i : {0, steps_u_}) RefineBorder({i, j * high_}, {i, (j + 1) * high_});
+    }
     for (std::size_t k = 0; k < rects_.size() && !Stopped(k); ++k) AddTriangles(rects_[k]);
     return std::move(mesh_);
   }
@@ -106,14 +116,34 @@ class PieceMesher {
   }
 
   void Divide(const Rect& s) {
-    if ((s.wide == 1 && s.high == 1) || HasOneLabel(s)) {
+    const int least_wide = wide_ / label_parts_u_, least_high = high_ / label_parts_v_;
+    if ((s.wide == least_wide && s.high == least_high) || !params_.label || HasOneLabel(s)) {
       rects_.push_back(s);
       return;
     }
-    const int wide = std::max(1, s.wide / 2), high = std::max(1, s.high / 2);
+    const int wide = std::max(least_wide, s.wide / 2), high = std::max(least_high, s.high / 2);
     for (int i = s.i; i < s.i + s.wide; i += wide) {
       for (int j = s.j; j < s.j + s.high; j += high) Divide({i, j, wide, high});
     }
+  }
+
+  // A place of the finest grid.
+  struct Step {
+    int i = 0, j = 0;
+  };
+
+  // Adds corners on a stretch of the border until it is as close to their polyline as neighbours should be.
+  void RefineBorder(const Step& a, const Step& b) {
+    if (std::max(b.i - a.i, b.j - a.j) < 2) return;
+    const Step middle{(a.i + b.i) / 2, (a.j + b.j) / 2};
+    const Vec3 from = Position(piece_, U(a.i), V(a.j)), to = Position(piece_, U(b.i), V(b.j));
+    const Vec3 way = to - from, at = Position(piece_, U(middle.i), V(middle.j)) - from;
+    const double length2 = way.squaredNorm();
+    const double t = length2 > 0.0 ? std::clamp(at.dot(way) / length2, 0.0, 1.0) : 0.0;
+    if ((at - t * way).norm() <= kBorderChord * params_.chord) return;
+    AddCorner(middle.i, middle.j);
+    RefineBorder(a, middle);
+    RefineBorder(middle, b);
   }
 
   std::int64_t Key(int i, int j) const { return static_cast<std::int64_t>(i) * (steps_v_ + 1) + j; }
@@ -141,12 +171,13 @@ class PieceMesher {
     return static_cast<std::uint32_t>(mesh_.vertices.size() - 1);
   }
 
+  void AddCorner(int i, int j) {
+    const auto [place, added] = corners_.try_emplace(Key(i, j), 0u);
+    if (added) place->second = Add(U(i), V(j));
+  }
   void AddCorners(const Rect& s) {
     for (const int i : {s.i, s.i + s.wide}) {
-      for (const int j : {s.j, s.j + s.high}) {
-        const auto [place, added] = corners_.try_emplace(Key(i, j), 0u);
-        if (added) place->second = Add(U(i), V(j));
-      }
+      for (const int j : {s.j, s.j + s.high}) AddCorner(i, j);
     }
   }
 
@@ -188,7 +219,8 @@ class PieceMesher {
   const MeshParams& params_;
   const RunContext& run_;
   const GridCells cells_;
-  const int wide_, high_;  // sides of a cell, in steps of the finest grid
+  const int label_parts_u_, label_parts_v_;  // of a cell's sides, as far as labels divide it
+  const int wide_, high_;                    // sides of a cell, in steps of the finest grid
   const int steps_u_, steps_v_;
   std::vector<Rect> rects_;
   std::unordered_map<std::int64_t, std::uint32_t> corners_;  // by Key: looked up only, never walked

@@ -46,7 +46,7 @@ struct MeshParams {
 
 // The triangles of each piece, in order. Cells in which the label changes are divided along both axes, down
 // to the grid of labels or a 32nd of a cell, unless that would make more than `most_triangles`. The
-// triangles of a piece leave no gaps; those of neighbouring pieces may, by at most the chord.
+// triangles of a piece leave no gaps; those of neighbouring pieces may, by about a 16th of the chord.
 // RESOURCE_EXHAUSTED ("triangles") if there are more than `most_triangles` without any label, before any is
 // made; CANCELLED and DEADLINE_EXCEEDED from `run`. Cost about 1 us per vertex.
 absl::StatusOr<std::vector<PieceTriangles>> MakeSurfaceMesh(const Surface& surface, const MeshParams& params,
