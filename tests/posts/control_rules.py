@@ -110,7 +110,7 @@ def no_tape_end_in_comments(program, dialect):
             yield block.line, "% in a comment"
 
 
-@rule({"fanuc": FANUC + ", Appendix: program code list; the control shows EOB as ;", "haas": HAAS + ", Basic programming: ; is EOB"},
+@rule({"fanuc": FANUC + ", EOB: shown as ;, the file has LF (Table 13.2 (a))", "haas": HAAS + ", Basic programming: ; is EOB"},
       certain=False)
 def no_block_end_in_comments(program, dialect):
     """A comment does not hold the semicolon, by which these controls show and enter the end of a block."""
@@ -340,6 +340,15 @@ def whole_numbers(program, dialect):
                 yield block.line, f"{word.letter}{word.text} is no whole number"
 
 
+@rule({"haas": HAAS + ", S: a whole number from 1 to 99999"}, certain=False)
+def whole_speeds(program, dialect):
+    """A speed is a whole number."""
+    for block in program:
+        for word in block.all("S"):
+            if not word.text.isdigit():
+                yield block.line, f"S{word.text} is no whole number"
+
+
 DECIMALS = {"fanuc": {"mm": 3, "inch": 4}}
 
 
@@ -403,7 +412,8 @@ def float_digits(program, dialect):
 FEEDS = {"fanuc": {"mm": (0.001, 240000), "inch": (0.0001, 9600)}, "haas": {"mm": (0.001, 50000), "inch": (0.0001, 2000)}}
 
 
-@rule(everywhere({"grbl": GRBL + " 4, 22", "fanuc": FANUC + ", Range of command value; alarm PS0011 FEED ZERO"}, "the manual on F: above 0"))
+@rule(everywhere({"grbl": GRBL + " 4, 22", "fanuc": FANUC + ", Range of command value; alarm PS0011 FEED ZERO"},
+                 "the manual on F: above 0"))
 def size_of_feeds(program, dialect):
     """A feed is above zero and within the range of F."""
     for block in program:
@@ -494,7 +504,8 @@ def rising_line_numbers(program, dialect):
 
 # ---- modes ----
 
-@rule(everywhere({"linuxcnc": NGC_G + ", G20 G21: a preamble states the unit"}, "the manual on G20/G21 or G700/G710: the unit outlasts a program"))
+@rule(everywhere({"linuxcnc": NGC_G + ", G20 G21: a preamble states the unit"},
+                 "the manual on G20/G21 or G700/G710: the unit outlasts a program"))
 def unit_before_motion(program, dialect):
     """The unit is stated before the first length."""
     for block in program:
@@ -593,8 +604,8 @@ def tool_before_change(program, dialect):
             yield block.line, "M6 without T"
 
 
-@rule({"fanuc": FANUC + ", Tool length offset (G43, G44, G49)", "haas": HAAS + ", G43", "linuxcnc": NGC_G + ", G43", "mach3": MACH3 + ", G43",
-       "siemens": SIEMENS + ", Tool offset: D; D0 is none"})
+@rule({"fanuc": FANUC + ", Tool length offset (G43, G44, G49)", "haas": HAAS + ", G43", "linuxcnc": NGC_G + ", G43",
+       "mach3": MACH3 + ", G43", "siemens": SIEMENS + ", Tool offset: D; D0 is none"})
 def length_before_z(program, dialect):
     """The length of the tool is in force at every move along Z in work coordinates."""
     for block in program:
@@ -771,6 +782,14 @@ def dwell_unit(program, dialect):
     for block in program:
         if 4 in block.codes("G"):
             yield block.line, "G4 P may be seconds or milliseconds"
+
+
+@rule({"grbl": "Grbl v1.1, realtime_cmds.md, Toggle mist coolant: M7 is an option of the build, off by default"}, certain=False)
+def mist_is_an_option(program, dialect):
+    """M7 works on a GRBL that was built with it; others answer error 20."""
+    for block in program:
+        if 7 in block.codes("M"):
+            yield block.line, "M7"
 
 
 @rule({"haas": HAAS + ", G187; Setting 85; E 0.0001 to 0.25 inch, 0.001 to 2.5 mm; P1 to P3"})

@@ -5,7 +5,7 @@ USER = "HEIDENHAIN TNC 640/iTNC 530 User's Manual Conversational Programming"
 CYCLES = "HEIDENHAIN TNC 640/iTNC 530 User's Manual Cycle Programming, Cycle 32 TOLERANCE"
 FORMATS = "HEIDENHAIN TNC 640 User's Manual, Technical information: input format and unit of TNC functions"
 RULES = []
-WORD = re.compile(r"(DR|FMAX|F AUTO|FAUTO|R0|RL|RR|I?[XYZ]|F|M|S|DL)([+-]?[0-9.]*)$")
+KNOWN_M = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 13, 14, 30, 89, 90, 91, 92, 94, 97, 98, 99, 107, 108, 116, 126, 127, 128, 129, 136, 137, 140}
 
 
 def rule(source, certain=True):
@@ -29,7 +29,8 @@ class Block:
         text = numbered[2] if numbered else raw
         self.comment = text.partition(";")[2] if ";" in text else None
         self.text = text.partition(";")[0].strip()
-        self.kind = next((k for k in self.KINDS if self.text == k or self.text.startswith(k + " ")), "M" if re.match(r"M\d", self.text) else "")
+        named = [k for k in self.KINDS if self.text == k or self.text.startswith(k + " ")]
+        self.kind = named[0] if named else "M" if re.match(r"M\d", self.text) else ""
         self.words = self.text[len(self.kind):].split() if self.kind != "M" else self.text.split()
         self.moves = self.kind in ("L", "C", "CR", "CT")
         self.fmax = "FMAX" in self.words
@@ -175,7 +176,7 @@ def size_of_feeds(program):
             yield block.line, f"F{feed} is out of its format"
 
 
-@rule(USER + ", Feed rate F: in inch programs 1/10 inch/min")
+@rule(USER + ", Feed rate F; TNC7 User's Manual, Cutting data: in inch programs 1/10 inch/min")
 def unit_of_feeds(program):
     """In an inch program F counts tenths of an inch per minute; a comment that says inch per minute is wrong by ten."""
     if not program[0].text.endswith("INCH"):
@@ -209,7 +210,7 @@ def known_m_words(program):
     """The control knows every M function."""
     for block in program:
         for m in block.m():
-            if m not in (0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 13, 14, 30, 89, 90, 91, 92, 94, 97, 98, 99, 107, 108, 116, 126, 127, 128, 129, 136, 137, 140):
+            if m not in KNOWN_M:
                 yield block.line, f"M{m}"
 
 
