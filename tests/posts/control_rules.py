@@ -15,7 +15,7 @@ from typing import NamedTuple
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 import klartext_rules  # noqa: E402
-from program_words import CENTRES, PLANES, arc_radii, decimals, number, read_program  # noqa: E402
+from program_words import PLANES, arc_radii, decimals, number, read_program  # noqa: E402
 
 NGC = "LinuxCNC, G-code Overview"
 NGC_G = "LinuxCNC, G-codes"

@@ -6,7 +6,6 @@ import re
 from typing import NamedTuple
 
 PLANES = {17: ("X", "Y", "I", "J"), 18: ("Z", "X", "K", "I"), 19: ("Y", "Z", "J", "K")}
-CENTRES = {"X": "I", "Y": "J", "Z": "K"}
 WORD = re.compile(r"([A-Za-z])\s*=?\s*([+-]?\s*[0-9. ]*[0-9.]|)")
 NAMES = re.compile(r"(SUPA|CYCLE\d+|MSG)\s*(\([^)]*\))?")
 
