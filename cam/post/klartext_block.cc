@@ -220,6 +220,13 @@ absl::StatusOr<std::optional<BlockModes>> Cycle(const std::vector<std::string>& 
 }  // namespace
 
 absl::StatusOr<std::optional<BlockModes>> KlartextReader::Read(std::string_view line) {
+  auto block = ReadBlock(line);
+  if (!block.ok() || !*block || !inch_) return block;
+  if (auto& feed = (*block)->value['F' - 'A']) *feed *= 0.1;
+  return block;
+}
+
+absl::StatusOr<std::optional<BlockModes>> KlartextReader::ReadBlock(std::string_view line) {
   const std::vector<std::string> words = WordsOf(line);
   if (words.empty()) return std::nullopt;
   if (ended_) return Fault("text after END PGM");
@@ -231,6 +238,7 @@ absl::StatusOr<std::optional<BlockModes>> KlartextReader::Read(std::string_view 
     if (words.size() < 4 || (unit != "MM" && unit != "INCH"))
       return Fault("BEGIN PGM without a name, and MM or INCH");
     begun_ = true;
+    inch_ = unit == "INCH";
     BlockModes modes;
     modes.units = unit == "MM" ? 210 : 200;
     modes.distance = 900;

@@ -19,10 +19,13 @@ class KlartextReader {
   // The block of the next line; absent for a line that does nothing. INVALID_ARGUMENT (without the line
   // number) for anything else: radius compensation, incremental and polar coordinates, Q parameters, labels,
   // calls, other cycles.
+  // In a program in inches, F counts tenths of an inch per minute; the block has it in inches.
   absl::StatusOr<std::optional<BlockModes>> Read(std::string_view line);
 
  private:
-  bool begun_ = false, ended_ = false;
+  absl::StatusOr<std::optional<BlockModes>> ReadBlock(std::string_view line);
+
+  bool begun_ = false, ended_ = false, inch_ = false;
   std::optional<double> pole_x_, pole_y_;  // of CC, in the program's unit
 };
 

@@ -56,13 +56,17 @@ std::vector<std::string> CommentLines(const Dialect& dialect, std::string_view t
   for (const char c : text) {
     const auto byte = static_cast<unsigned char>(c);
     const std::size_t mark = kMarks.find(c);
-    if (byte >= 0x80 && byte < 0xC0) continue;  // a tail byte of UTF-8; each character becomes one '?'
+    if (byte >= 0x80 && byte < 0xC0) continue;  // a tail byte of UTF-8; each character becomes one '_'
     if (mark != std::string_view::npos) {
       safe += mark % 2 == 0 ? '[' : ']';
     } else if (byte == '\n' || byte == '\r' || byte == '\t') {
       safe += ' ';
     } else if (byte < 0x20 || byte > 0x7e) {
-      safe += '?';
+      safe += '_';
+    } else if (c == '%') {  // ends the record on Fanuc and Haas, in a comment too
+      safe += dialect.upper_case ? "PCT" : "pct";
+    } else if (c == '?' || c == '!' || c == '~') {  // GRBL obeys them, wherever they stand
+      safe += '.';
     } else {
       safe += dialect.upper_case ? static_cast<char>(std::toupper(byte)) : c;
     }

@@ -203,13 +203,17 @@ std::string PlaceText(const PostParams& params, std::int64_t ticks) {
   return fmt::format("{}{}", plus ? "+" : "", FormatTicks(ticks, params.dialect.decimals[params.unit]));
 }
 
-// A feed as a program has it. In inches it is rounded down: a step of the last decimal is more than anyone
-// allows above a limit.
-std::string FeedText(double mm_per_min, ProgramUnit unit) {
-  constexpr int kDecimals = 4;
-  const double feed = std::max(mm_per_min / kMillimetersPer[unit], 1e-4);
-  if (unit == ProgramUnit::kMillimeter) return FormatShort(feed, kDecimals);
-  return FormatShort(std::floor(feed * 1e4 * (1.0 + 1e-12)) * 1e-4, kDecimals);
+// A feed as a program has it. In inches and on Heidenhain it is rounded down: half a step of the last decimal
+// may be more than anyone allows above a limit. Heidenhain counts feeds of programs in inches in tenths, and
+// reads three decimals.
+std::string FeedText(double mm_per_min, const PostParams& params) {
+  const bool klartext = params.dialect.syntax == Syntax::kKlartext, inch = params.unit == ProgramUnit::kInch;
+  const int decimals = klartext ? 3 : 4;
+  const double step = std::pow(10.0, -decimals);
+  const double feed =
+      std::max(mm_per_min / kMillimetersPer[params.unit] * (klartext && inch ? 10.0 : 1.0), step);
+  if (!klartext && !inch) return FormatShort(feed, decimals);
+  return FormatShort(std::floor(feed / step * (1.0 + 1e-12)) * step, decimals);
 }
 
 // Writes blocks without repeating modal words.
@@ -276,7 +280,7 @@ class BlockWriter {
     }
     if (IsKlartext() && move.rapid) add("FMAX");
     if (!move.rapid && (rapid_ || move.feed != feed_)) {
-      std::string feed = FeedText(move.feed, params_.unit);
+      std::string feed = FeedText(move.feed, params_);
       if (dialect_.feed_point && feed.find('.') == std::string::npos) feed += '.';
       add("F" + feed);
       feed_ = move.feed;
@@ -366,7 +370,9 @@ std::vector<std::string> HeaderTexts(const std::vector<RoundedMove>& moves, cons
     texts.push_back("units MM, feeds MM per minute; X Y Z is the tool tip, the lowest point of the ball");
   } else {
     texts.push_back("lengths in the comments above are in MM");
-    texts.push_back("units INCH, feeds INCH per minute; X Y Z is the tool tip, the lowest point of the ball");
+    texts.push_back(fmt::format(
+        "units INCH, feeds {}INCH per minute; X Y Z is the tool tip, the lowest point of the ball",
+        dialect.syntax == Syntax::kKlartext ? "1/10 " : ""));
   }
   const auto zero = [&](int k) { return text(ToTicks(params.program_zero[k], dialect, params.unit)); };
   const bool chooses = std::any_of(dialect.begin.begin(), dialect.begin.end(), [](const std::string& line) {
@@ -445,7 +451,7 @@ absl::StatusOr<WrittenProgram> WriteProgramWithLines(const Toolpath& toolpath, c
   PostValues values{.program = fmt::format("{:04}", params.program_number),
                     .work_offset = params.work_offset,
                     .tool = fmt::format("{}", tool.number),
-                    .speed = FormatShort(tool.spindle_rpm, 1),
+                    .speed = FormatShort(std::max(1.0, tool.spindle_rpm), 0),
                     .coolant = CoolantLine(dialect, tool.coolant),
                     .path = PathLine(params),
                     .tolerance = {},

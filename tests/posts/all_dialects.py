@@ -35,15 +35,7 @@ INCH, NO_ARCS, RESTART = ["--inch"], ["--no-arcs"], ["--restart-points", "--line
 PAIRS = [[], INCH + NO_ARCS, INCH + RESTART, NO_ARCS + RESTART]
 
 # Dialect, rule, and what is wrong with our programs: certain breaches of a manual, for the posts to correct.
-KNOWN_BREACHES = [
-    ("heidenhain", "unit-of-feeds", "Programs in inches state F in inch per minute, while the control reads 1/10 inch per minute."),
-    ("heidenhain", "size-of-feeds", "Programs in inches have feeds with four decimals, while the format of F has three."),
-    ("heidenhain", "scale-of-feeds", "Feeds in inches are the tenth of what the control needs for the feed of the job."),
-    ("grbl", "no-realtime-characters", "The name of the model goes into a comment with ? ! and ~, which GRBL obeys inside comments."),
-    ("fanuc", "no-tape-end-in-comments", "The name of the model goes into a comment with %, which ends the record."),
-    ("fanuc", "whole-numbers", "A spindle speed with a fraction is written with its point, which S does not take (alarm PS0007)."),
-    ("haas", "no-tape-end-in-comments", "The name of the model goes into a comment with %, which ends the program."),
-]
+KNOWN_BREACHES = []
 
 
 def jobs():

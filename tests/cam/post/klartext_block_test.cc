@@ -102,7 +102,7 @@ TEST(Klartext, ToleranceOfTheMachineIsNoTolerance) {
   ASSERT_TRUE(motion.ok()) << motion.status();
   EXPECT_EQ(motion->controller_tolerance, kInfinity);
   EXPECT_DOUBLE_EQ(motion->moves.back().to.x(), 25.4);
-  EXPECT_DOUBLE_EQ(motion->moves.back().feed, 254.0);
+  EXPECT_NEAR(motion->moves.back().feed, 25.4, 1e-12) << "F counts tenths of an inch in a program in inches";
 }
 
 // After the examples for SUPA, G4 and CYCLE832 in the manuals of 840D sl, written anew.
