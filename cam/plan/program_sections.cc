@@ -86,7 +86,12 @@ class SectionMaker {
     section.first_move = above.value_or(gap.first);
     section.restart = above.has_value();
     count_ += same ? 0 : 1;
-    section.comment = fmt::format("section {}", count_) + (same ? ", continued" : Describe(next));
+    section.comment = fmt::format("section {}", count_);
+    if (same) {
+      section.comment += ", continued";
+    } else {
+      Describe(next, section);
+    }
     section.first_pass = next;
     section.continued = same;
     sections_.push_back(std::move(section));
@@ -103,7 +108,8 @@ class SectionMaker {
     return fmt::format("region {}, {}", pass.region.index(), what);
   }
 
-  std::string Describe(int first) const {
+  // Adds region, slope, kind and number of the passes to the comment, and the range of the tip.
+  void Describe(int first, ProgramSection& section) const {
     std::size_t count = 0;
     double low = kInfinity, high = -kInfinity;
     for (std::size_t i = static_cast<std::size_t>(first); i < passes_.size(); ++i) {
@@ -115,8 +121,9 @@ class SectionMaker {
       }
     }
     const double shift = zero_.z() + radius_;
-    return fmt::format(", {}: {} {}, tip Z{:.3f} to Z{:.3f}", Name(PassAt(first)), count,
-                       NameOf(PassAt(first).kind, count), high - shift, low - shift);
+    section.comment +=
+        fmt::format(", {}: {} {}", Name(PassAt(first)), count, NameOf(PassAt(first).kind, count));
+    section.tip = {low - shift, high - shift};
   }
 
   const std::vector<Move>& moves_;

@@ -364,12 +364,14 @@ std::vector<std::string> HeaderTexts(const std::vector<RoundedMove>& moves, cons
                                      const PostParams& params) {
   const Dialect& dialect = params.dialect;
   const auto [low, high] = RangeOf(moves, params);
-  std::vector<std::string> texts = params.header;
+  std::vector<std::string> texts;
+  if (params.unit == ProgramUnit::kInch)
+    texts.push_back("program in INCH; lengths in the comments down to \"units INCH\" are in MM");
+  texts.insert(texts.end(), params.header.begin(), params.header.end());
   const auto text = [&](std::int64_t ticks) { return FormatTicks(ticks, dialect.decimals[params.unit]); };
   if (params.unit == ProgramUnit::kMillimeter) {
     texts.push_back("units MM, feeds MM per minute; X Y Z is the tool tip, the lowest point of the ball");
   } else {
-    texts.push_back("lengths in the comments above are in MM");
     texts.push_back(fmt::format(
         "units INCH, feeds {}INCH per minute; X Y Z is the tool tip, the lowest point of the ball",
         dialect.syntax == Syntax::kKlartext ? "1/10 " : ""));
@@ -408,6 +410,14 @@ std::string PathLine(const PostParams& params) {
   PostValues values;
   values.tolerance = FormatTicks(ticks, decimals);
   return *FillTemplate(dialect.path_tolerance, values);
+}
+
+std::string SectionText(const ProgramSection& section, ProgramUnit unit) {
+  if (!section.tip) return section.comment;
+  const double mm = kMillimetersPer[unit];
+  return fmt::format("{}, tip Z{:.{}f} to Z{:.{}f}", section.comment, section.tip->high / mm,
+                     unit == ProgramUnit::kInch ? 4 : 3, section.tip->low / mm,
+                     unit == ProgramUnit::kInch ? 4 : 3);
 }
 
 // machine_top in the program's unit, not below it.
@@ -482,7 +492,7 @@ absl::StatusOr<WrittenProgram> WriteProgramWithLines(const Toolpath& toolpath, c
   auto next = sections.begin();
   for (std::size_t i = 1; i < moves.size(); ++i) {
     for (; next != sections.end() && next->first_move <= i; ++next) {
-      comment(next->section->comment);
+      comment(SectionText(*next->section, params.unit));
       if (!next->restart) continue;
       comment(fmt::format("restart point {}: the control may start at the next line, with T{} in the spindle",
                           ++restarts, tool.number));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,10 +17,16 @@ namespace patchmill {
 
 // Moves that belong together, for the operator.
 struct ProgramSection {
+  // The lowest and the highest tip of its passes, mm, program frame.
+  struct Heights {
+    double low = 0.0, high = 0.0;
+  };
+
   std::size_t first_move = 0;  // index into Toolpath::moves
-  std::string comment;
-  int first_pass = 0;      // Move::pass with which the section begins, or goes on
-  bool continued = false;  // the section goes on after a restart point
+  std::string comment;         // without lengths: they would be in another unit than the program
+  std::optional<Heights> tip = std::nullopt;  // added to the comment, in the unit of the program
+  int first_pass = 0;                         // Move::pass with which the section begins, or goes on
+  bool continued = false;                     // the section goes on after a restart point
   // The control may be started here. The tool is clear of everything before the first move, which is a rapid.
   bool restart = false;
 };

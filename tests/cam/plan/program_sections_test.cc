@@ -56,14 +56,19 @@ TEST(ProgramSections, BeginWhereRegionOrKindChanges) {
   motion.Add(Pass(PassKind::kRest, 1, 12), true);
   const auto sections = SectionsOf(motion.linked.toolpath, motion.linked, map, Vec3(0, 0, 10));
   ASSERT_EQ(sections.size(), 4u);
-  EXPECT_EQ(sections[0].comment, "section 1, region 0, steep: 3 contours, tip Z7.000 to Z3.500");
+  EXPECT_EQ(sections[0].comment, "section 1, region 0, steep: 3 contours");
+  ASSERT_TRUE(sections[0].tip);
+  EXPECT_EQ(sections[0].tip->low, 3.5);
+  EXPECT_EQ(sections[0].tip->high, 7.0);
   EXPECT_EQ(sections[0].first_move, 0u);
   EXPECT_FALSE(sections[0].restart);  // it is the start
   EXPECT_EQ(sections[1].comment, "section 1, continued");
+  EXPECT_FALSE(sections[1].tip);
   EXPECT_TRUE(sections[1].restart);
-  EXPECT_EQ(sections[2].comment, "section 2, region 1, gentle: 1 line, tip Z-1.000 to Z-1.000");
+  EXPECT_EQ(sections[2].comment, "section 2, region 1, gentle: 1 line");
+  EXPECT_EQ(sections[2].tip->low, -1.0);
   EXPECT_FALSE(sections[2].restart);
-  EXPECT_EQ(sections[3].comment, "section 3, region 1, gentle: 1 rest pass, tip Z-1.000 to Z-1.000");
+  EXPECT_EQ(sections[3].comment, "section 3, region 1, gentle: 1 rest pass");
   EXPECT_TRUE(sections[3].restart);
   for (const ProgramSection& section : sections) {
     if (!section.restart) continue;

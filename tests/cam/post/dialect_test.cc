@@ -249,6 +249,20 @@ TEST_P(EveryDialect, KnowsTheLineOfEachMove) {
   }
 }
 
+// Heights in the comments of sections are in the unit of the coordinates below them.
+TEST_P(EveryDialect, SectionsStateHeightsInTheUnitOfTheProgram) {
+  PostParams params = Params();
+  params.sections = {{.first_move = 1, .comment = "section 1", .tip = ProgramSection::Heights{-2.54, 25.4}}};
+  const auto program = WriteProgram(RandomPath(1), BallTool(), params);
+  ASSERT_TRUE(program.ok());
+  std::string text = *program;
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](char c) { return static_cast<char>(std::tolower(c)); });
+  EXPECT_THAT(text,
+              HasSubstr(inch() ? "section 1, tip z1.0000 to z-0.1000" : "section 1, tip z25.400 to z-2.540"));
+  EXPECT_EQ(text.find("program in inch") != std::string::npos, inch());
+}
+
 TEST_P(EveryDialect, ALevelCircleIsOneBlock) {
   Toolpath path;
   path.ball_radius = kRadius;

@@ -41,7 +41,8 @@ PostParams Params(const Dialect& dialect) {
   params.dialect = dialect;
   params.clearance_z = 20.0;
   params.controller_tolerance = 0.003;
-  params.sections = {{0, "first section", 0, false, true}, {kOver, "second section", 1, false, true}};
+  params.sections = {{.first_move = 0, .comment = "first section", .first_pass = 0, .restart = true},
+                     {.first_move = kOver, .comment = "second section", .first_pass = 1, .restart = true}};
   return params;
 }
 
