@@ -11,17 +11,21 @@ namespace {
 
 constexpr double kLeastChord = 1e-4;   // mm
 constexpr double kSquares = 20'000.0;  // that cover the surface where a program is drawn
-constexpr int kMostDoublings = 40;     // of the default chord
+constexpr int kMostDoublings = 60;
 
-absl::StatusOr<double> DefaultChord(const Surface& surface, MeshParams params, const RunContext& run) {
-  params.chord = std::max(kLeastChord, surface.box.Diagonal() / 2000.0);
+// The parameters with sides, and the chord too where nobody has stated it, so large that there are few enough
+// triangles. A surface of very many pieces has four triangles for each.
+absl::StatusOr<MeshParams> Fitted(const Surface& surface, MeshParams params, bool chord_is_stated,
+                                  const RunContext& run) {
+  if (!chord_is_stated) params.most_triangles = std::max(params.most_triangles, 4 * surface.pieces.size());
   absl::Status few = CheckTriangles(surface, params, run);
   for (int k = 0; k < kMostDoublings && absl::IsResourceExhausted(few); ++k) {
-    params.chord *= 2.0;
+    params.longest_edge *= 2.0;
+    if (!chord_is_stated) params.chord *= 2.0;
     few = CheckTriangles(surface, params, run);
   }
   PM_RETURN_IF_ERROR(few);
-  return params.chord;
+  return params;
 }
 
 void Combine(std::vector<double>& all, const std::vector<double>& more, bool least) {
@@ -68,11 +72,8 @@ absl::StatusOr<SurfaceDrawing> DrawSurface(const Surface& surface, const Drawing
   MeshParams mesh;
   if (!params.ways.empty())
     mesh.longest_edge = std::max(kLeastChord, std::sqrt(RoughArea(surface) / kSquares));
-  if (params.chord) {
-    mesh.chord = *params.chord;
-  } else {
-    PM_ASSIGN_OR_RETURN(mesh.chord, DefaultChord(surface, mesh, run));
-  }
+  mesh.chord = params.chord.value_or(std::max(kLeastChord, surface.box.Diagonal() / 2000.0));
+  PM_ASSIGN_OR_RETURN(mesh, Fitted(surface, mesh, params.chord.has_value(), run));
   if (const RegionMap* const map = params.map; map != nullptr && map->cells > 0) {
     mesh.label_cells = map->cells;
     mesh.label = [map](PieceId piece, double u, double v) {

@@ -1,5 +1,5 @@
-// What is needed to draw a job in three dimensions: the surface as triangles with the regions of its map, and
-// what a program leaves at their corners.
+// The data of a three-dimensional drawing of a job: the surface as triangles with the regions of its map, and
+// the leftover and the gouge of a program at their corners.
 #pragma once
 
 #include <optional>
@@ -26,8 +26,8 @@ struct DrawingParams {
 struct SurfaceDrawing {
   double chord = 0.0;                // mm
   std::vector<PieceTriangles> mesh;  // placed frame; labels are ids of regions
-  // What the program leaves at the vertices, those of all pieces in a row: what the best of its tools leaves,
-  // and the deepest gouge of all, in the worst of its ways. Absent without a program.
+  // Leftover and gouge at the vertices, those of all pieces in a row. Of several tools, the least leftover
+  // and the deepest gouge count; of several ways, the largest of each. Absent without a program.
   std::optional<MotionAtPoints> motion;
 };
 
@@ -35,7 +35,8 @@ struct SurfaceDrawing {
 absl::Status CheckChord(const Surface& surface, double chord, const RunContext& run);
 
 // With a program, cells are at most as wide as the side of one of 20,000 squares that cover the surface, so
-// that flat areas have vertices too. Errors as MakeSurfaceMesh and MeasureAt.
+// that flat areas have vertices too; wider where that would make too many triangles. Errors as MeasureAt, and
+// as CheckChord where a chord is stated.
 absl::StatusOr<SurfaceDrawing> DrawSurface(const Surface& surface, const DrawingParams& params,
                                            const RunContext& run);
 

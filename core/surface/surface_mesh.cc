@@ -53,7 +53,8 @@ struct Rect {
   int i = 0, j = 0, wide = 1, high = 1;
 };
 
-// Makes the triangles of one piece. The cells are divided by halves into a finest grid; vertices lie on that.
+// Makes the triangles of one piece. With `divide`, the cells are divided by halves into a finest grid;
+// vertices lie on that.
 class PieceMesher {
  public:
   PieceMesher(const Surface& surface, PieceId id, const MeshParams& params, bool divide,
@@ -64,8 +65,8 @@ class PieceMesher {
         cells_(CellsOf(piece_, params)),
         label_parts_u_(divide ? Parts(cells_.u) : 1),
         label_parts_v_(divide ? Parts(cells_.v) : 1),
-        wide_(std::max(kBorderParts, label_parts_u_)),
-        high_(std::max(kBorderParts, label_parts_v_)),
+        wide_(divide ? std::max(kBorderParts, label_parts_u_) : 1),
+        high_(divide ? std::max(kBorderParts, label_parts_v_) : 1),
         steps_u_(cells_.u * wide_),
         steps_v_(cells_.v * high_) {
     mesh_.piece = id;
@@ -263,6 +264,7 @@ absl::StatusOr<std::vector<PieceTriangles>> MakeSurfaceMesh(const Surface& surfa
   PM_RETURN_IF_ERROR(CheckTriangles(surface, params, run));
   PM_ASSIGN_OR_RETURN(auto fine, MakeAll(surface, params, true, run));
   if (fine) return *std::move(fine);
+  // Undivided cells are as many as CheckTriangles has counted.
   PM_ASSIGN_OR_RETURN(auto coarse, MakeAll(surface, params, false, run));
   return *std::move(coarse);
 }

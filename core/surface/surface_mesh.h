@@ -45,14 +45,15 @@ struct MeshParams {
 };
 
 // The triangles of each piece, in order. Cells in which the label changes are divided along both axes, down
-// to the grid of labels or a 32nd of a cell, unless that would make more than `most_triangles`. The
-// triangles of a piece leave no gaps; those of neighbouring pieces may, by about a 16th of the chord.
-// RESOURCE_EXHAUSTED ("triangles") if there are more than `most_triangles` without any label, before any is
-// made; CANCELLED and DEADLINE_EXCEEDED from `run`. Cost about 1 us per vertex.
+// to the grid of labels or a 32nd of a cell, and so are their sides on the border of a piece. If that makes
+// more than `most_triangles`, nothing is divided. The triangles of a piece leave no gaps; those of
+// neighbouring pieces may, by about a 16th of the chord, or by the chord where nothing is divided.
+// RESOURCE_EXHAUSTED ("triangles") as CheckTriangles; CANCELLED and DEADLINE_EXCEEDED from `run`. Cost about
+// 1 us per vertex.
 absl::StatusOr<std::vector<PieceTriangles>> MakeSurfaceMesh(const Surface& surface, const MeshParams& params,
                                                             const RunContext& run);
 
-// OK if MakeSurfaceMesh with these parameters keeps `most_triangles`. Cost some microseconds per piece.
+// OK if the triangles are at most `most_triangles` without any division. Cost some microseconds per piece.
 absl::Status CheckTriangles(const Surface& surface, const MeshParams& params, const RunContext& run);
 
 }  // namespace patchmill
