@@ -303,18 +303,13 @@ absl::StatusOr<VerifiedProgram> PostAndVerify(const JobContext& context, const T
   return program;
 }
 
-// How LinuxCNC drives the program, if it is for LinuxCNC.
+// The rules by which LinuxCNC drives the program; absent for other controls.
 std::optional<LinuxCncPlanner> PlannerOf(const Job& job, const Resolved& resolved) {
   if (!job.dialect.linuxcnc_planner) return std::nullopt;
   const bool stated =
       !job.dialect.path_tolerance.empty() && resolved.budget.controller >= job.dialect.least_tolerance;
   return LinuxCncPlanner{.tolerance = stated ? resolved.budget.controller : 0.0,
                          .step = TickOf(job.dialect, job.unit)};
-}
-
-// The time of the posted motion on the machine of the job.
-ToolpathTimes PostedTimes(const Job& job, const Resolved& resolved, const JobResult& result) {
-  return TimesOn(*job.setup.machine, result.posted, result.regions.regions.size(), PlannerOf(job, resolved));
 }
 
 absl::StatusOr<JobResult> PlanAndJudge(const Surface& surface, const Job& job, const RunContext& run) {
@@ -383,15 +378,20 @@ absl::StatusOr<JobResult> PlanAndJudge(const Surface& surface, const Job& job, c
   PM_ASSIGN_OR_RETURN(result.motion, Link(context, locator, result.regions, parts, std::move(planned.paths)));
   PM_RETURN_IF_ERROR(CheckMotion(job.path_limits, result.motion));
   report.motion = result.motion.stats;
-  result.posted = Fitted(job, resolved, result.motion);
-  report.point_count = static_cast<int>(result.posted.moves.size());
+  const auto post_as = [&](Toolpath posted) {
+    report.point_count = static_cast<int>(posted.moves.size());
+    result.posted_seconds = SecondsOf(posted, job.setup.machine, PlannerOf(job, resolved));
+    if (job.setup.machine)
+      report.times = SumsOf(posted, result.posted_seconds, result.regions.regions.size());
+    result.posted = std::move(posted);
+  };
+  post_as(Fitted(job, resolved, result.motion));
   PM_ASSIGN_OR_RETURN(const Diagnostics beside,
                       FindToolBesidePart(surface, TipsOf(result.motion.toolpath), resolved.radius,
                                          resolved.program_zero, run));
   report.diagnostics.insert(report.diagnostics.end(), beside.begin(), beside.end());
   clock.Done("link");
   report.leads = result.motion.leads;
-  if (job.setup.machine) report.times = PostedTimes(job, resolved, result);
   const Diagnostics steep = SteepLeads(report.leads, resolved);
   report.diagnostics.insert(report.diagnostics.end(), steep.begin(), steep.end());
   if (resolved.stock != nullptr) {
@@ -443,9 +443,7 @@ absl::StatusOr<JobResult> PlanAndJudge(const Surface& surface, const Job& job, c
       report.diagnostics.push_back(MakeWarning(
           "ARCS_LEFT_OUT", "with arcs a promise would be broken, so the program has straight moves only"));
       program = std::move(straight);
-      result.posted = result.motion.toolpath;
-      report.point_count = static_cast<int>(result.posted.moves.size());
-      if (job.setup.machine) report.times = PostedTimes(job, resolved, result);
+      post_as(result.motion.toolpath);
     }
   }
   report.verify = std::move(program.report);
@@ -475,7 +473,6 @@ absl::StatusOr<JobResult> PlanAndJudge(const Surface& surface, const Job& job, c
   report.outcome = unreachable > 0.0 ? Outcome::kCompleteWhereReachable : Outcome::kComplete;
   result.program = std::move(program.written.text);
   result.posted_lines = std::move(program.written.move_lines);
-  result.posted_seconds = SecondsOf(result.posted, job.setup.machine, PlannerOf(job, resolved));
   return result;
 }
 

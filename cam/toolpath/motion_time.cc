@@ -114,15 +114,18 @@ std::vector<double> SecondsOf(const Toolpath& toolpath, const std::optional<Mach
 
 ToolpathTimes TimesOn(const Machine& machine, const Toolpath& toolpath, std::size_t regions,
                       const std::optional<LinuxCncPlanner>& planner) {
-  const std::vector<double> times = SecondsOf(toolpath, machine, planner);
+  return SumsOf(toolpath, SecondsOf(toolpath, machine, planner), regions);
+}
+
+ToolpathTimes SumsOf(const Toolpath& toolpath, const std::vector<double>& seconds, std::size_t regions) {
   ToolpathTimes sums;
   sums.of_region.assign(regions, 0.0);
-  for (std::size_t i = 0; i < times.size(); ++i) {
+  for (std::size_t i = 0; i < seconds.size(); ++i) {
     const Move& move = toolpath.moves[i];
-    sums.total += times[i];
-    sums.of_kind[move.kind] += times[i];
+    sums.total += seconds[i];
+    sums.of_kind[move.kind] += seconds[i];
     if (move.region != kNoRegion && move.region.index() < regions)
-      sums.of_region[move.region.index()] += times[i];
+      sums.of_region[move.region.index()] += seconds[i];
   }
   return sums;
 }

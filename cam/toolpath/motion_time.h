@@ -45,5 +45,7 @@ struct ToolpathTimes {
 };
 ToolpathTimes TimesOn(const Machine& machine, const Toolpath& toolpath, std::size_t regions,
                       const std::optional<LinuxCncPlanner>& planner = std::nullopt);
+// The sums of the times of its moves, which SecondsOf gave.
+ToolpathTimes SumsOf(const Toolpath& toolpath, const std::vector<double>& seconds, std::size_t regions);
 
 }  // namespace patchmill
