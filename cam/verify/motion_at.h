@@ -1,4 +1,4 @@
-// What a motion leaves at given points, and how deep it enters there [verification, section 4].
+// Measures leftover and gouge of a motion at given points [verification, section 4].
 #pragma once
 
 #include <span>
@@ -19,9 +19,9 @@ struct BallMotion {
   double leave = 0.0;                     // mm, stock to leave
 };
 
-// Of each point, mm. `leftover`: its distance from the nearest feed of the ball's centre, less R, which is
-// the ball's radius plus the stock to leave; the diagonal of the motion and the points where nothing is
-// fed. `gouge`: R less its distance from all moves below machine zero, swept upward; at least 0.
+// Two values for each point, mm. `leftover`: its distance from the nearest feed of the ball's centre, less
+// R, which is the ball's radius plus the stock to leave; the diagonal of the motion and the points where
+// nothing is fed. `gouge`: R less its distance from all moves below machine zero, swept upward; at least 0.
 struct MotionAtPoints {
   std::vector<double> leftover, gouge;
 };

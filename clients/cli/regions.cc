@@ -108,20 +108,9 @@ std::string FacesOf(const v1::Region& region) {
   return text;
 }
 
-double Length(const v1::BorderLine& line) {
-  const auto& p = line.points_mm();
-  double sum = 0.0;
-  const int count = p.size() / 3;
-  for (int i = line.closed() ? 0 : 1; i < count; ++i) {
-    const int a = 3 * ((i + count - 1) % count), b = 3 * i;
-    sum += std::hypot(p[b] - p[a], p[b + 1] - p[a + 1], p[b + 2] - p[a + 2]);
-  }
-  return sum;
-}
-
 void PrintBorders(const v1::RegionMap& map) {
   std::map<v1::BorderKind, double> lengths;
-  for (const v1::BorderLine& line : map.border_lines()) lengths[line.kind()] += Length(line);
+  for (const v1::BorderLine& line : map.border_lines()) lengths[line.kind()] += LengthOf(line);
   std::string text;
   for (const auto& [kind, length] : lengths) text += fmt::format("{} {:.1f} mm, ", Short(kind), length);
   fmt::print("borders: {}{} nodes\n", text, map.nodes_size());

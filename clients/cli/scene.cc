@@ -107,17 +107,6 @@ void AddRegions(const v1::RegionMap& map, Struct& header) {
   }
 }
 
-double LengthOf(const v1::BorderLine& line) {
-  const auto& p = line.points_mm();
-  double sum = 0.0;
-  const int count = p.size() / 3;
-  for (int i = line.closed() ? 0 : 1; i < count; ++i) {
-    const int a = 3 * ((i + count - 1) % count), b = 3 * i;
-    sum += std::hypot(p[b] - p[a], p[b + 1] - p[a + 1], p[b + 2] - p[a + 2]);
-  }
-  return sum;
-}
-
 // "open edge".
 std::string BorderName(v1::BorderKind kind) {
   return absl::StrReplaceAll(absl::AsciiStrToLower(Short(kind)), {{"_", " "}});

@@ -16,11 +16,11 @@
 
 namespace patchmill::cli {
 
-// What a page shows; what is absent is not shown.
+// The contents of a page. A page leaves out whatever is absent here.
 struct Scene {
   std::string title;
   v1::Setup setup;
-  v1::Tool tool;
+  v1::Tool tool;                  // of several tools, the first
   double tolerance = 0.0;         // mm
   std::optional<double> scallop;  // mm
   double steep_angle = 45.0;      // degrees

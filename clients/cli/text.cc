@@ -1,6 +1,7 @@
 #include "clients/cli/text.h"
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 
 #include <absl/strings/ascii.h>
@@ -190,6 +191,17 @@ std::string Print(const google::protobuf::Message& message, bool whole) {
 }
 
 }  // namespace
+
+double LengthOf(const v1::BorderLine& line) {
+  const auto& p = line.points_mm();
+  double sum = 0.0;
+  const int count = p.size() / 3;
+  for (int i = line.closed() ? 0 : 1; i < count; ++i) {
+    const int a = 3 * ((i + count - 1) % count), b = 3 * i;
+    sum += std::hypot(p[b] - p[a], p[b + 1] - p[a + 1], p[b + 2] - p[a + 2]);
+  }
+  return sum;
+}
 
 std::string Json(const google::protobuf::Message& message) { return Print(message, true); }
 std::string ShortJson(const google::protobuf::Message& message) { return Print(message, false); }

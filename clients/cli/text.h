@@ -10,6 +10,7 @@
 #include "patchmill/v1/diagnostic.pb.h"
 #include "patchmill/v1/lines.pb.h"
 #include "patchmill/v1/model.pb.h"
+#include "patchmill/v1/region.pb.h"
 #include "patchmill/v1/report.pb.h"
 #include "patchmill/v1/setup.pb.h"
 
@@ -34,6 +35,8 @@ std::string Printable(const std::string& text);
 // "WARNING OPEN_EDGE patch 3: ...".
 std::string Line(const v1::Diagnostic& finding);
 int CountErrors(const google::protobuf::RepeatedPtrField<v1::Diagnostic>& findings);
+// mm, along the line; from the last point to the first if it is closed.
+double LengthOf(const v1::BorderLine& line);
 // "X 1.000 Y 2.000 Z 3.000".
 std::string Line(const v1::Point3& point);
 std::string Line(const v1::Place& place);

@@ -181,7 +181,7 @@ std::string MapPath(const std::string& path, const char* ending) {
   return (ends ? path.substr(0, path.size() - 4) : path) + ending;
 }
 
-// What the page shows before the answer comes.
+// The part of the page that is known before the answer comes.
 Scene BareScene(const VerifyOptions& options, const v1::VerifyProgramRequest& request) {
   Scene scene;
   const auto name = [](const std::string& path) { return std::filesystem::path(path).filename().string(); };

@@ -54,8 +54,13 @@ export function colorOf(region: Region): string {
   return `#${rgb.map((c) => Math.min(255, Math.max(0, c + shift)).toString(16).padStart(2, "0")).join("")}`;
 }
 
+// A forced strategy leaves its mark on regions that passes cross; those are reached.
+function isUnreached(region: Region): boolean {
+  return region.kind === RegionKind.UNREACHABLE;
+}
+
 export function regionName(region: Region): string {
-  if (region.unreachableReason !== UnreachableReason.UNSPECIFIED) {
+  if (isUnreached(region)) {
     return `${shortName(UnreachableReason, region.unreachableReason)}: ${fixed(region.areaMm2, 1)} mm2, ${fixed(region.deepestLeftoverMm, 2)} mm stays`;
   }
   return `${shortName(RegionKind, region.kind)}, ${shortName(Slope, region.slope)}`.toLowerCase() + `: ${fixed(region.areaMm2, 1)} mm2`;
@@ -67,13 +72,12 @@ const isCut = (region: Region): boolean => !region.skipped && (region.areaMm2 ==
 
 function regionItems(map: RegionMap | undefined): unknown[] {
   return (map?.regions ?? []).map((region) => {
-    const isUnreached = region.unreachableReason !== UnreachableReason.UNSPECIFIED;
     const note = isCut(region) ? "" : region.skipped ? ", off" : ", not selected";
     return {
       id: region.id,
       name: `${region.id} ${regionName(region)}${note}`,
       color: isCut(region) ? colorOf(region) : skippedColor,
-      unreachable: isUnreached ? shortName(UnreachableReason, region.unreachableReason) : "",
+      unreachable: isUnreached(region) ? shortName(UnreachableReason, region.unreachableReason) : "",
     };
   });
 }
