@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include <absl/strings/numbers.h>
 #include <fmt/format.h>
 
 #include "cam/limits/reach_tolerance.h"
@@ -22,6 +23,7 @@
 #include "cam/plan/job_findings.h"
 #include "cam/plan/plan.h"
 #include "cam/plan/plan_passes.h"
+#include "cam/plan/posted_program.h"
 #include "cam/plan/program_sections.h"
 #include "cam/plan/quickest_angles.h"
 #include "cam/plan/region_choices.h"
@@ -264,14 +266,31 @@ absl::StatusOr<std::vector<PlanPart>> VerifiedParts(const Surface& surface, cons
 
 namespace {
 
+// The line of a program that a message of its reader names ("line 34: ..."), as " in the line "G1 X3"";
+// empty if it names none. The program itself is written nowhere.
+std::string NamedLine(std::string_view text, std::string_view message) {
+  int number = 0;
+  constexpr std::string_view kLine = "line ";
+  if (message.substr(0, kLine.size()) != kLine) return "";
+  if (!absl::SimpleAtoi(std::string(message.substr(kLine.size(), message.find(':') - kLine.size())), &number))
+    return "";
+  for (int line = 1; line < number; ++line) {
+    const std::size_t end = text.find('\n');
+    if (end == text.npos) return "";
+    text.remove_prefix(end + 1);
+  }
+  return fmt::format(" in \"{}\"", text.substr(0, std::min(text.find_first_of("\r\n"), std::size_t{80})));
+}
+
 // A post file of the user's own may write what the reader does not know.
-absl::Status CannotReadBack(const Dialect& dialect, const absl::Status& status) {
+absl::Status CannotReadBack(const Dialect& dialect, std::string_view text, const absl::Status& status) {
   if (status.code() != absl::StatusCode::kInvalidArgument) return status;
+  const std::string message(status.message());
   return FieldError(
       "post.post_file",
-      fmt::format("of the dialect {}: the program cannot be read back, so it cannot be verified: {}; "
+      fmt::format("of the dialect {}: the program cannot be read back, so it cannot be verified: {}{}; "
                   "[words] of the post file says what a word of the control does",
-                  dialect.name, std::string(status.message())));
+                  dialect.name, message, NamedLine(text, message)));
 }
 
 bool HasArcs(const Toolpath& toolpath) {
@@ -297,9 +316,12 @@ absl::StatusOr<VerifiedProgram> PostAndVerify(const JobContext& context, const T
                                                        .run = &context.run,
                                                        .dialect = job.dialect,
                                                        .control_deviation = job.control_deviation});
-  if (!read.ok()) return CannotReadBack(job.dialect, read.status());
+  if (!read.ok()) return CannotReadBack(job.dialect, program.written.text, read.status());
   PM_ASSIGN_OR_RETURN(program.report,
                       Verify(context.surface, job.operation.tool, *read, verify, context.run));
+  PM_ASSIGN_OR_RETURN(const Diagnostics faults, CheckPosted(program.written, *read, job, context.run));
+  program.report.findings.insert(program.report.findings.begin(), faults.begin(), faults.end());
+  program.report.motion_ok = program.report.motion_ok && faults.empty();
   return program;
 }
 

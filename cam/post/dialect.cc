@@ -28,6 +28,11 @@ const std::vector<Dialect>& Dialects() {
   return *dialects;
 }
 
+bool IsShipped(const Dialect& dialect) {
+  const Dialect* const known = FindDialect(dialect.name);
+  return known != nullptr && known->text == dialect.text;
+}
+
 const Dialect* FindDialect(std::string_view name) {
   for (const Dialect& dialect : Dialects()) {
     if (dialect.name == name) return &dialect;

@@ -51,9 +51,12 @@ struct Dialect {
   EnumArray<ProgramUnit, std::string> unit_word;
   std::size_t max_comment_length = 0;  // characters in one comment line, including its marks
   std::string comment_open, comment_close;
-  bool upper_case = false;   // of comments
-  bool feed_point = false;   // F always has a decimal point
-  int line_number_step = 0;  // 0: lines have no numbers
+  bool upper_case = false;  // of comments
+  bool feed_point = false;  // F always has a decimal point
+  // A coordinate without a decimal point counts in mm or in increments, as the control is set.
+  bool coordinate_point = false;
+  bool length_offset = true;  // the control has length offsets of tools (G43)
+  int line_number_step = 0;   // 0: lines have no numbers
   std::string line_end = "\n";
   // On a line with G20 or G21, F counts in the new unit; else in the unit in force before the line.
   bool feed_in_new_unit = false;
@@ -95,6 +98,8 @@ struct Dialect {
 
 // mm: the last decimal of a coordinate.
 double TickOf(const Dialect& dialect, ProgramUnit unit);
+// Whether Patchmill brings this very dialect along; else the user says what it says.
+bool IsShipped(const Dialect& dialect);
 // Whether the dialect has programs in that unit. Without {unit} in its lines, all its programs are in mm.
 bool HasUnit(const Dialect& dialect, ProgramUnit unit);
 

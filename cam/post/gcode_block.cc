@@ -70,6 +70,7 @@ absl::Status ParseGcodeLine(std::string_view line, GcodeBlock& block) {
     if (letter < 'A' || letter > 'Z') return Bad(fmt::format("unexpected {}", Printable(letter)));
     const bool first = at == begin;
     ++at;
+    const std::size_t value_at = at;
     const absl::StatusOr<double> value = ReadGcodeValue(code, at);
     if (!value.ok()) return Bad(fmt::format("{}: {}", letter, std::string(value.status().message())));
     const double number = *value;
@@ -77,7 +78,8 @@ absl::Status ParseGcodeLine(std::string_view line, GcodeBlock& block) {
       if (!first) return Bad("N within a line");
       continue;
     }
-    block.words.push_back({letter, number});
+    const std::string_view digits = std::string_view(code).substr(value_at, at - value_at);
+    block.words.push_back({letter, number, digits.find_first_of(".[") != digits.npos});
   }
   return absl::OkStatus();
 }

@@ -12,6 +12,7 @@ namespace patchmill {
 struct GcodeWord {
   char letter = 'G';  // upper case
   double number = 0.0;
+  bool has_point = true;  // a decimal point, or an expression
 };
 
 struct GcodeBlock {

@@ -115,6 +115,7 @@ absl::StatusOr<BlockModes> SortModes(const GcodeBlock& block, const Dialect& dia
         if (modes.word)
           return absl::InvalidArgumentError(Spell(word) + ": another such word is in the same line");
         modes.word = own->second;
+        modes.own_word = own->first;
         continue;
       }
       const double tenfold = word.number * 10.0;
@@ -145,6 +146,10 @@ absl::StatusOr<BlockModes> SortModes(const GcodeBlock& block, const Dialect& dia
     auto& value = modes.value[static_cast<std::size_t>(word.letter - 'A')];
     if (value) return absl::InvalidArgumentError(fmt::format("{} is given twice", word.letter));
     value = word.number;
+    constexpr std::string_view kCoordinates = "XYZIJKRQ";
+    if (dialect.coordinate_point && !word.has_point && word.number != 0.0 && modes.without_point == '\0' &&
+        kCoordinates.find(word.letter) != std::string_view::npos)
+      modes.without_point = word.letter;
   }
   return modes;
 }

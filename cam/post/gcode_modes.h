@@ -3,6 +3,7 @@
 
 #include <array>
 #include <optional>
+#include <string_view>
 
 #include <absl/status/statusor.h>
 
@@ -14,24 +15,28 @@ namespace patchmill {
 // Codes are ten times their number: G90.1 is 901. 0 is a code (G0, M0); a missing code is std::nullopt.
 struct BlockModes {
   using Code = std::optional<int>;
-  bool deletable = false;                       // the line starts with /
-  Code motion;                                  // G0 G1 G2 G3 G73 G80 G81 G82 G83
-  Code plane;                                   // G17 G18 G19
-  Code units;                                   // G20 G21
-  Code distance;                                // G90 G91
-  Code arc_distance;                            // G90.1 G91.1
-  Code tool_length;                             // G43 G49
-  Code work_offset;                             // G54 .. G59
-  Code path;                                    // G61 G61.1 G64
-  Code once;                                    // G4 G28 G30 G53
-  Code compensation;                            // G40 G41 G42 G41.1 G42.1
-  Code feed_mode;                               // G93 G94 G95
-  Code cycle_end;                               // G98 G99
-  Code stop;                                    // M0 M1 M2 M30
-  Code tool_change;                             // M6
-  Code spindle;                                 // M3 M4 M5
-  Code coolant;                                 // M7 M8 M9
-  std::optional<DialectWord> word;              // a word of the dialect's own
+  bool deletable = false;           // the line starts with /
+  Code motion;                      // G0 G1 G2 G3 G73 G80 G81 G82 G83
+  Code plane;                       // G17 G18 G19
+  Code units;                       // G20 G21
+  Code distance;                    // G90 G91
+  Code arc_distance;                // G90.1 G91.1
+  Code tool_length;                 // G43 G49
+  Code work_offset;                 // G54 .. G59
+  Code path;                        // G61 G61.1 G64
+  Code once;                        // G4 G28 G30 G53
+  Code compensation;                // G40 G41 G42 G41.1 G42.1
+  Code feed_mode;                   // G93 G94 G95
+  Code cycle_end;                   // G98 G99
+  Code stop;                        // M0 M1 M2 M30
+  Code tool_change;                 // M6
+  Code spindle;                     // M3 M4 M5
+  Code coolant;                     // M7 M8 M9
+  std::optional<DialectWord> word;  // a word of the dialect's own
+  std::string_view own_word;        // its spelling in [words]; empty if it belongs to the syntax
+  // A coordinate other than 0 without a decimal point, where that matters (Dialect::coordinate_point); or
+  // '\0'.
+  char without_point = '\0';
   std::array<std::optional<double>, 26> value;  // of the other letters, by letter - 'A'
 
   const std::optional<double>& operator[](char letter) const {

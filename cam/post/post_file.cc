@@ -1,6 +1,8 @@
 // The reader of post files.
+#include <algorithm>
 #include <charconv>
 #include <functional>
+#include <iterator>
 #include <utility>
 
 #include <absl/strings/ascii.h>
@@ -142,6 +144,10 @@ const std::map<std::string, Reader, std::less<>>& Keys() {
        [](View v, Dialect& d) { return ReadInteger(v, 20, 250, d.max_comment_length); }},
       {"control.upper_case", [](View v, Dialect& d) { return ReadChoice(v, "no", "yes", d.upper_case); }},
       {"control.feed_point", [](View v, Dialect& d) { return ReadChoice(v, "no", "yes", d.feed_point); }},
+      {"control.coordinate_point",
+       [](View v, Dialect& d) { return ReadChoice(v, "no", "yes", d.coordinate_point); }},
+      {"control.length_offset",
+       [](View v, Dialect& d) { return ReadChoice(v, "no", "yes", d.length_offset); }},
       {"control.feed_unit",
        [](View v, Dialect& d) { return ReadChoice(v, "before", "new", d.feed_in_new_unit); }},
       {"control.arc_turns", [](View v, Dialect& d) { return ReadChoice(v, "no", "yes", d.arc_turns); }},
@@ -199,6 +205,22 @@ std::string KeysOf(std::string_view section) {
   return list;
 }
 
+// Words that move the tool, call another program, or shift, turn, scale or mirror coordinates on controls
+// of any maker. Whoever says that they do nothing would have a wrong motion judged.
+bool MayMove(std::string_view spelling) {
+  constexpr std::string_view kWords[] = {
+      "G5.2",  "G5.3",  "G6",    "G6.1",  "G6.2",  "G7",   "G7.1", "G10",   "G10.1", "G11",
+      "G12",   "G12.1", "G13",   "G16",   "G22",   "G27",  "G29",  "G30.1", "G31",   "G31.1",
+      "G32",   "G33",   "G33.1", "G34",   "G35",   "G36",  "G37",  "G38",   "G41.2", "G42.2",
+      "G43.1", "G43.2", "G43.4", "G43.5", "G44",   "G45",  "G46",  "G47",   "G48",   "G50.1",
+      "G51",   "G51.1", "G52",   "G52.1", "G53.1", "G60",  "G65",  "G66",   "G66.1", "G67",
+      "G68",   "G68.2", "G70",   "G71",   "G72",   "G74",  "G76",  "G77",   "G78",   "G84",
+      "G84.2", "G84.3", "G85",   "G86",   "G87",   "G88",  "G89",  "G91.2", "G92",   "G92.1",
+      "G92.2", "G92.3", "G95",   "G96",   "G107",  "G110", "G111", "G112",  "G120",  "G136",
+      "G141",  "G143",  "G150",  "G234",  "G254",  "M96",  "M97",  "M98",   "M99",   "M198"};
+  return std::find(std::begin(kWords), std::end(kWords), spelling) != std::end(kWords);
+}
+
 // "G05.1" as "G5.1". INVALID_ARGUMENT for anything but a G or M word, and for a word that the reader of
 // programs knows by itself: its meaning must not be taken away.
 absl::StatusOr<std::string> ReadSpelling(std::string_view spelling) {
@@ -211,7 +233,14 @@ absl::StatusOr<std::string> ReadSpelling(std::string_view spelling) {
   if (!code) return Bad(fmt::format("{} is not a G or M word", Quoted(spelling)));
   if (SortModes({.words = {{spelling[0], number}}}, Dialect()).ok())
     return Bad(fmt::format("{} has a meaning of its own, which cannot be changed", spelling));
-  return fmt::format("{}{:.10g}", spelling[0], number);
+  const std::string plain = fmt::format("{}{:.10g}", spelling[0], number);
+  if (MayMove(plain)) {
+    return Bad(
+        fmt::format("{} moves the tool, calls a program or changes coordinates on some controls: a program "
+                    "with it cannot be judged, so no post file can explain it away",
+                    spelling));
+  }
+  return plain;
 }
 
 // "G187 = tolerance E" or "M83 = none".
@@ -236,7 +265,12 @@ class PostFileReader {
     const std::string_view text = Trimmed(line);
     if (text.empty() || text.front() == '#') return absl::OkStatus();
     for (const char c : text) {
-      if (c < 0x20 || c > 0x7e) return Bad("only printable ASCII is allowed");
+      if (c < 0x20 || c > 0x7e) {
+        return Bad(
+            fmt::format("byte 0x{:02X}: only printable ASCII is allowed, without tabs and without a byte "
+                        "order mark",
+                        static_cast<unsigned char>(c)));
+      }
     }
     if (text.size() > kLongestLine) return Bad(fmt::format("longer than {} characters", kLongestLine));
     if (text.front() == '[') return Section(text);
@@ -276,6 +310,8 @@ class PostFileReader {
         return Bad("[begin] nowhere has {path}, which the accuracy rests on");
     }
     const bool other_planes = dialect_.arcs.planes[ArcPlane::kZx] || dialect_.arcs.planes[ArcPlane::kYz];
+    const bool any_plane = other_planes || dialect_.arcs.planes[ArcPlane::kXy];
+    if (dialect_.arcs.helices && !any_plane) return Bad("[arcs] helices = yes, and planes is missing");
     if (dialect_.syntax == Syntax::kKlartext && (other_planes || dialect_.arcs.helices))
       return Bad("[arcs] klartext programs have arcs in the plane G17 only, and no helices");
     if (!seen_.contains("control.decimals_inch"))
@@ -307,6 +343,8 @@ class PostFileReader {
   absl::Status Section(std::string_view text) {
     for (const char* name : {"control", "path", "arcs", "coolant", "words", "begin", "restart", "end"}) {
       if (text == fmt::format("[{}]", name)) {
+        if (!seen_.insert({std::string(text), true}).second)
+          return Bad(fmt::format("{} is given twice", text));
         section_ = name;
         return absl::OkStatus();
       }

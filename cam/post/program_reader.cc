@@ -278,14 +278,22 @@ absl::Status Interpreter::CheckFeed() const {
   return absl::OkStatus();
 }
 
+// Whether a dialect that Patchmill brings along says the same of the word.
+bool OfAShippedDialect(const BlockModes& block) {
+  const auto& all = Dialects();
+  return std::any_of(all.begin(), all.end(), [&](const Dialect& dialect) {
+    const auto known = dialect.words.find(std::string(block.own_word));
+    return known != dialect.words.end() && known->second.tolerance_letter == block.word->tolerance_letter;
+  });
+}
+
 // A word of the dialect's own. What a post file of the user says of it is an assumption.
 void Interpreter::UseOwnWord(const BlockModes& block) {
-  const Dialect* known = FindDialect(dialect_.name);
-  if (known == nullptr || known->text != dialect_.text) {
-    Note(
-        "WORD_EXPLAINED",
-        fmt::format("a word is taken for what the post file {} says of it, and so are all others of its kind",
-                    dialect_.name));
+  if (!block.own_word.empty() && !OfAShippedDialect(block)) {
+    Note("WORD_EXPLAINED",
+         fmt::format("{} is taken for what [words] of the post file {} says of it, and so are "
+                     "all others of that section",
+                     block.own_word, dialect_.name));
   }
   if (block.word->tolerance_letter == '\0') return;
   const auto& value = block[block.word->tolerance_letter];
@@ -309,6 +317,12 @@ void Interpreter::NoteAssumptions(ProgramMove::Kind kind, bool below) {
   if (work_offset_ == 0 && dialect_.syntax != Syntax::kKlartext) {
     Note("WORK_OFFSET_ASSUMED",
          "no work offset is in force (G54 to G59); the active one is taken as that of this set-up");
+  }
+  const bool own_post = !IsShipped(dialect_);
+  if (own_post && dialect_.follows_exactly) {
+    Note("PATH_MODE_ASSUMED",
+         fmt::format("the control is taken to follow the path exactly: the post file {} says so",
+                     dialect_.name));
   }
   if (!below) return;
   if (tool_length_ != 430) {
@@ -355,7 +369,8 @@ absl::Status Interpreter::Emit(ProgramMove::Kind kind, const Vec3& to, bool to_a
   move.to_above = to_above;
   move.from_anywhere = anywhere_;
   move.chord_error = chord_error;
-  move.spindle_on = spindle_on_ && speed_ > 0.0;
+  move.spindle_speed = spindle_on_ ? static_cast<float>(speed_) : 0.0F;
+  move.coolant_on = coolant_on_;
   move.tool = loaded_;
   if (kind == ProgramMove::Kind::kFeed) {
     motion_.controller_tolerance = std::max(motion_.controller_tolerance, Smoothing());
@@ -386,7 +401,8 @@ absl::Status Interpreter::Home(const BlockModes& block) {
     return Bad(fmt::format("{} with Z below machine {}: it is not known to be above everything", word,
                            safe == 0.0 ? "zero" : fmt::format("Z{:g}", safe)));
   }
-  if (z && *z * unit_ < dialect_.machine_top) {
+  const double known = IsShipped(dialect_) ? dialect_.machine_top : 0.0;
+  if (z && *z * unit_ < known) {
     Note("MACHINE_Z_ASSUMED",
          fmt::format("{} Z{:g} is taken as above everything, as every machine Z from {:g} mm up", word, *z,
                      safe));
@@ -564,6 +580,12 @@ absl::Status Interpreter::Run(const BlockModes& block, int line) {
   PM_RETURN_IF_ERROR(CheckUse(block, motion_mode_, dialect_));
   PM_RETURN_IF_ERROR(SetModes(block));
   motion_.has_deletable_lines = motion_.has_deletable_lines || block.deletable;
+  if (block.without_point != '\0') {
+    Note("POINT_ASSUMED",
+         fmt::format("{}{:g} has no decimal point: taken as {}, and a control that is set to count "
+                     "increments moves a thousandth of that or less",
+                     block.without_point, *block[block.without_point], unit_ == kInch ? "inches" : "mm"));
+  }
   const bool arc = IsArc(motion_mode_), cycle = IsCycle(motion_mode_);
   const bool stated = (arc || cycle) && block.motion.has_value();
   if (block.once == 530) {

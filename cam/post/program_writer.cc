@@ -488,14 +488,16 @@ absl::StatusOr<WrittenProgram> WriteProgramWithLines(const Toolpath& toolpath, c
     for (const std::string& line : CommentLines(dialect, text)) out.Bare(line);
   };
   std::vector<int> lines(toolpath.moves.size(), 0);
-  int restarts = 0;
+  std::vector<WrittenProgram::Restart> restarts;
   auto next = sections.begin();
   for (std::size_t i = 1; i < moves.size(); ++i) {
     for (; next != sections.end() && next->first_move <= i; ++next) {
       comment(SectionText(*next->section, params.unit));
       if (!next->restart) continue;
+      if (!restarts.empty()) restarts.back().end_line = out.lines() + 1;
       comment(fmt::format("restart point {}: the control may start at the next line, with T{} in the spindle",
-                          ++restarts, tool.number));
+                          restarts.size() + 1, tool.number));
+      restarts.push_back({out.lines() + 1, 0});
       values.x = PlaceText(params, next->place[0]);
       values.y = PlaceText(params, next->place[1]);
       values.z = PlaceText(params, next->place[2]);
@@ -508,10 +510,11 @@ absl::StatusOr<WrittenProgram> WriteProgramWithLines(const Toolpath& toolpath, c
   }
   out.EndMoves();
   write(dialect.end);
+  if (!restarts.empty()) restarts.back().end_line = out.lines() + 1;
   for (std::size_t i = 1; i < lines.size(); ++i) {
     if (lines[i] == 0) lines[i] = lines[i - 1];
   }
-  return WrittenProgram{out.Take(), std::move(lines)};
+  return WrittenProgram{out.Take(), std::move(lines), std::move(restarts)};
 }
 
 }  // namespace patchmill

@@ -68,6 +68,12 @@ struct WrittenProgram {
   // A move that vanished in rounding has the line before; the first move has 0, if the lines before the
   // motion make it.
   std::vector<int> move_lines;
+  // Of each restart point: the line at which the control may start, and the line behind the moves that
+  // follow it up to the next restart point or the end.
+  struct Restart {
+    int first_line = 0, end_line = 0;
+  };
+  std::vector<Restart> restarts;
 };
 absl::StatusOr<WrittenProgram> WriteProgramWithLines(const Toolpath& toolpath, const Tool& tool,
                                                      const PostParams& params);

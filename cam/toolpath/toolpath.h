@@ -43,18 +43,19 @@ struct Toolpath {
 struct ProgramMove {
   enum class Kind { kRapid, kFeed };
   Kind kind = Kind::kRapid;
+  float spindle_speed = 0.0F;  // 1/min; 0 while the spindle stands still
   Vec3 from = Vec3::Zero();
   Vec3 to = Vec3::Zero();
   double feed = 0.0;        // mm/min
   int line = 0;             // 1-based line of the text
   bool from_above = false;  // starts at machine Z zero ("above everything"); from.z() means +infinity
   bool to_above = false;    // ends at machine Z zero
+  bool coolant_on = false;
   // X or Y of `from` was never stated, so the axis may have been anywhere. `from` then holds the place to
   // which the axis is first sent. Or X or Y goes to a place of the machine (G28 X0, G53 X0), which is
   // unknown.
   bool from_anywhere = false;
   double chord_error = 0.0;  // mm, if the move is one chord of an arc
-  bool spindle_on = false;   // at a speed above zero
   int tool = -1;             // number of the tool in the spindle; -1 before the first tool change
 };
 

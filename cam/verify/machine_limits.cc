@@ -88,6 +88,18 @@ Diagnostics BeyondMachine(const ProgramMotion& motion, const Machine& machine) {
     }
     watch.AddTo(list);
   }
+  const auto out_of_range =
+      std::find_if(motion.moves.begin(), motion.moves.end(), [&](const ProgramMove& move) {
+        const double speed = move.spindle_speed;
+        return move.kind == ProgramMove::Kind::kFeed && speed > 0.0 &&
+               (speed < machine.spindle_min || (machine.spindle_max > 0.0 && speed > machine.spindle_max));
+      });
+  if (out_of_range != motion.moves.end()) {
+    list.push_back(
+        Broken("SPINDLE_BEYOND_RANGE", out_of_range->line,
+               fmt::format("a feed with the spindle at {:g} rpm; the machine allows {:g} to {:g}",
+                           out_of_range->spindle_speed, machine.spindle_min, machine.spindle_max)));
+  }
   return list;
 }
 

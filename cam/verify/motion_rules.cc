@@ -42,7 +42,7 @@ class Rules {
 
   void Spindle() {
     const auto still = std::find_if(motion_.moves.begin(), motion_.moves.end(), [&](const ProgramMove& m) {
-      return m.kind == ProgramMove::Kind::kFeed && !m.spindle_on &&
+      return m.kind == ProgramMove::Kind::kFeed && m.spindle_speed == 0.0F &&
              ((!m.from_above && InStock(m.from)) || (!m.to_above && InStock(m.to)));
     });
     if (still == motion_.moves.end()) return;

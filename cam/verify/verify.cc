@@ -165,7 +165,17 @@ class Verifier {
     p.certainty = params_.certainty;
     // The control's own smoothing may deepen each gouge [verification P1].
     const double smoothing = motion_.controller_tolerance;
-    p.limit = std::max(0.0, params_.tolerance - smoothing);
+    const bool bounded = std::isfinite(smoothing);
+    // Places where the smoothing alone could gouge would be everywhere: then the path as programmed is
+    // judged.
+    p.limit = bounded ? std::max(0.0, params_.tolerance - smoothing) : params_.tolerance;
+    if (!bounded) {
+      Report("CONTROL_SMOOTHING",
+             "no word says how far the control may leave the path, so nothing bounds its gouges: state a "
+             "tolerance or "
+             "exact stop in the program, in the words of the control, or how far the control leaves the path "
+             "(--control-deviation)");
+    }
     const SegmentTree tree(CollectMoves(motion_, MotionSet::kSwept, offset_), Metric::kSwept, radius_, run_);
     PM_ASSIGN_OR_RETURN(const Extremes gouge, FindGouge({surface_, roots_}, tree, p, run_, "verify: gouge"));
     report_.max_gouge = gouge.worst.value;
@@ -173,9 +183,7 @@ class Verifier {
     ReportPlaces("GOUGE", gouge.violations, "the ball or the shank above it cuts into the surface");
     PM_RETURN_IF_ERROR(JudgeUppers(p));
     report_.gouge_ok = report_.max_gouge + smoothing <= params_.tolerance;
-    if (!std::isfinite(smoothing)) {
-      Report("CONTROL_SMOOTHING", "no word says how far the control may leave the path: it is not bounded");
-    } else if (!report_.gouge_ok && report_.max_gouge <= params_.tolerance) {
+    if (bounded && !report_.gouge_ok && report_.max_gouge <= params_.tolerance) {
       Report(
           "CONTROL_SMOOTHING",
           fmt::format("gouge {:.4f} mm and the control's smoothing {:.4f} mm together exceed the tolerance "

@@ -180,7 +180,7 @@ TEST_P(EveryDialect, IsReadBackAsTheSameMotion) {
       if (sent.kind != MoveKind::kRapid) {
         EXPECT_LE(below[i]->feed, sent.feed + 1e-9);
         EXPECT_NEAR(below[i]->feed, sent.feed, inch() ? 25.4e-4 : 0.0);
-        EXPECT_TRUE(below[i]->spindle_on);
+        EXPECT_GT(below[i]->spindle_speed, 0.0F);
       }
     }
   }
@@ -476,6 +476,14 @@ TEST(OwnPostFile, FaultsHaveTheirLine) {
             "line 16: G91 has a meaning of its own, which cannot be changed");
   EXPECT_EQ(with("M51 = none", "M030 = none"),
             "line 16: M030 has a meaning of its own, which cannot be changed");
+  for (const std::string word : {"G52", "G068", "M98", "G92", "G51.1", "G43.4", "G65"}) {
+    EXPECT_THAT(with("M51 = none", word + " = none"),
+                HasSubstr("line 16: " + word + " moves the tool, calls a program or changes coordinates"));
+  }
+  EXPECT_EQ(with("[end]", "[begin]"), "line 27: [begin] is given twice");
+  EXPECT_THAT(with("name = shop", "name =\tshop"), HasSubstr("byte 0x09: only printable ASCII"));
+  EXPECT_EQ(with("[coolant]", "[arcs]\nhelices = yes\n[coolant]"),
+            "[arcs] helices = yes, and planes is missing");
   EXPECT_EQ(with("M51 = none", "G1.2.3 = none"), "line 16: \"G1.2.3\" is not a G or M word");
   EXPECT_EQ(with("M51 = none", "M050 = none"), "line 16: M50 is given twice");
   EXPECT_EQ(with("# Our mill.", "our mill"), "line 1: text before the first section, [control]");

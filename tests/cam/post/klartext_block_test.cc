@@ -56,7 +56,7 @@ TEST(Klartext, LinesAndCircles) {
     if (move.line == 14) circle += (move.to - move.from).norm();
     if (move.line == 15) quarter += (move.to - move.from).norm();
     if (move.line == 11) plunge = move.feed;
-    EXPECT_TRUE(move.spindle_on || move.kind == ProgramMove::Kind::kRapid);
+    EXPECT_TRUE(move.spindle_speed > 0.0F || move.kind == ProgramMove::Kind::kRapid);
   }
   EXPECT_NEAR(circle, 2.0 * kPi * 45.0, 0.01);
   EXPECT_NEAR(quarter, 0.5 * kPi * 45.0, 0.01);

@@ -323,6 +323,26 @@ TEST(VerifyMotion, TheMachineMustReachAllPlaces) {
   EXPECT_EQ(*Find(judged("G1 X20 Y20 F1500\n"), "FEED_BEYOND_RANGE")->where.line, 5);
 }
 
+TEST(VerifyMotion, TheMachineMustReachTheSpeed) {
+  const Surface surface = SurfaceOf(Plane(5.0));
+  VerifyParams params = Params(1.0);
+  params.machine = SmallMachine();
+  params.machine->spindle_min = 100.0;
+  params.machine->spindle_max = 24000.0;
+  const auto judged = [&](const std::string& speed) {
+    const std::string text = "G21 G90\nG53 G0 Z0 S" + speed + " M3\nG0 X0 Y0\nZ6\nG1 X5 F900\n";
+    return Judged(surface, Ball(3.0), text + kEnd, params);
+  };
+  EXPECT_EQ(Find(judged("100"), "SPINDLE_BEYOND_RANGE"), nullptr);
+  EXPECT_EQ(Find(judged("24000"), "SPINDLE_BEYOND_RANGE"), nullptr);
+  for (const char* speed : {"99", "60000"}) {
+    const VerifyReport report = judged(speed);
+    ASSERT_NE(Find(report, "SPINDLE_BEYOND_RANGE"), nullptr) << speed;
+    EXPECT_EQ(*Find(report, "SPINDLE_BEYOND_RANGE")->where.line, 5);
+    EXPECT_FALSE(report.motion_ok);
+  }
+}
+
 TEST(VerifyMotion, SmoothingOfRapidsCounts) {
   const Surface surface = SurfaceOf(Plane(10.0));
   VerifyParams params = Params(0.5);
