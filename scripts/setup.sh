@@ -13,7 +13,7 @@ what="${1:-all}"
 build_packages=(
   g++ cmake ninja-build ccache pkg-config git ca-certificates
   libgrpc++-dev libgrpc-dev protobuf-compiler-grpc protobuf-compiler libprotobuf-dev libabsl-dev
-  libeigen3-dev libopenmesh-dev libtbb-dev libcli11-dev libfmt-dev libspdlog-dev
+  libeigen3-dev libopenmesh-dev libtbb-dev libcli11-dev libfmt-dev libspdlog-dev libstb-dev fonts-dejavu-core
 )
 test_packages=(
   libgtest-dev libgmock-dev libbenchmark-dev librapidcheck-dev libcgal-dev

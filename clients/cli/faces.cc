@@ -89,7 +89,7 @@ absl::Status Run(const FacesOptions& options, InterruptWatch& watch) {
   }
   if (output.wanted()) output.Set(response->has_picture() ? response->picture().data() : Json(*response));
   if (const absl::Status written = Commit({&output}); !written.ok()) return written;
-  if (!options.common.quiet || !output.wanted()) Print(*response);
+  if (!output.is_standard() && (!options.common.quiet || !output.wanted())) Print(*response);
   return absl::OkStatus();
 }
 

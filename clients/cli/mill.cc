@@ -12,6 +12,7 @@
 #include "clients/cli/job_options.h"
 #include "clients/cli/limit_options.h"
 #include "clients/cli/output_file.h"
+#include "clients/cli/picture_options.h"
 #include "clients/cli/post_options.h"
 #include "clients/cli/progress_bar.h"
 #include "clients/cli/region_options.h"
@@ -33,6 +34,7 @@ struct MillOptions {
   RegionChangeOptions regions;
   std::string model, program, report, work_offset = "G54";
   std::vector<std::string> previews;
+  PictureFlags picture;
   PostOptions post;
   bool no_arcs = false, inch = false, restart_points = false;
   std::optional<int> line_numbers;
@@ -41,13 +43,19 @@ struct MillOptions {
 
 // The part of the stream received so far. It goes to disk only after the report.
 struct Received {
-  OutputFile program, report_file, picture, page;
+  OutputFile program, report_file, plan, picture, page;
   Scene scene;
   v1::Report report;
   bool complete = false;  // the report has come; a stream without it is void
 };
 
-bool IsPage(const std::string& path) { return absl::EndsWithIgnoreCase(path, ".html"); }
+// A plan (.svg) is drawn by the server; a picture (.png) and a page (.html) are made here of the same data.
+enum class Preview { kPlan, kPicture, kPage };
+
+Preview KindOf(const std::string& path) {
+  if (absl::EndsWithIgnoreCase(path, ".html")) return Preview::kPage;
+  return absl::EndsWithIgnoreCase(path, ".png") ? Preview::kPicture : Preview::kPlan;
+}
 
 absl::StatusOr<v1::GenerateProgramRequest> MakeRequest(const MillOptions& options) {
   v1::GenerateProgramRequest request;
@@ -86,11 +94,12 @@ absl::StatusOr<v1::GenerateProgramRequest> MakeRequest(const MillOptions& option
   for (const v1::Output output : {v1::OUTPUT_PROGRESS, v1::OUTPUT_PROGRAM, v1::OUTPUT_REPORT}) {
     request.add_outputs(output);
   }
+  bool in_3d = false;
   for (const std::string& path : options.previews) {
-    if (!IsPage(path)) {
-      request.add_outputs(v1::OUTPUT_PICTURE);
-      continue;
-    }
+    if (KindOf(path) == Preview::kPlan) request.add_outputs(v1::OUTPUT_PICTURE);
+    in_3d = in_3d || KindOf(path) != Preview::kPlan;
+  }
+  if (in_3d) {
     for (const v1::Output output : {v1::OUTPUT_REGIONS, v1::OUTPUT_PATH_BLOCKS, v1::OUTPUT_TESSELLATION})
       request.add_outputs(output);
   }
@@ -109,7 +118,7 @@ void Take(v1::GenerateProgramResponse& response, ProgressBar& bar, Received& rec
       if (received.page.wanted()) received.scene.program += response.program().data();
       break;
     case v1::GenerateProgramResponse::kArtifact:
-      received.picture.Append(response.artifact().data());
+      received.plan.Append(response.artifact().data());
       break;
     case v1::GenerateProgramResponse::kAccepted:
       received.scene.setup = response.accepted().resolved_job().setup();
@@ -132,15 +141,18 @@ void Take(v1::GenerateProgramResponse& response, ProgressBar& bar, Received& rec
   }
 }
 
-// One picture and one page at most.
+// At most one of each kind.
 absl::Status SetPreviews(const std::vector<std::string>& paths, Received& received) {
   for (const std::string& path : paths) {
-    OutputFile& file = IsPage(path) ? received.page : received.picture;
+    const Preview kind = KindOf(path);
+    OutputFile& file = kind == Preview::kPage      ? received.page
+                       : kind == Preview::kPicture ? received.picture
+                                                   : received.plan;
     if (file.wanted()) {
       return absl::InvalidArgumentError(
-          fmt::format("--preview {} and {}; one picture (.svg) and one page (.html)", file.path(), path));
+          fmt::format("--preview {} and {}; one .svg, one .png and one .html at most", file.path(), path));
     }
-    file = OutputFile(path, {".svg", ".html"});
+    file = OutputFile(path, {".svg", ".png", ".html"});
   }
   return received.page.wanted() ? CheckPage() : absl::OkStatus();
 }
@@ -150,17 +162,20 @@ bool CarriesProgram(const v1::Report& report) {
 }
 
 // Report and picture of a failed job are written, its program is not.
-absl::Status WriteFiles(const MillOptions& options, Received& received) {
+absl::Status WriteFiles(const MillOptions& options, const PictureOptions& picture, Received& received) {
   received.report_file.Set(Json(received.report));
-  absl::StatusOr<std::string> page = std::string();
-  if (received.page.wanted()) {
-    received.scene.report = received.report;
-    page = MakePage(received.scene);
-    if (page.ok()) received.page.Set(*std::move(page));
-  }
-  // A page that cannot be made keeps nothing else from being written.
-  if (!page.ok()) received.page = OutputFile();
-  if (const absl::Status written = Commit({&received.report_file, &received.picture, &received.page});
+  received.scene.report = received.report;
+  // A preview that cannot be made keeps nothing else from being written.
+  absl::Status previews;
+  const auto set = [&](OutputFile& file, absl::StatusOr<std::string> made) {
+    if (made.ok()) return file.Set(*std::move(made));
+    previews.Update(made.status());
+    file = OutputFile();
+  };
+  if (received.page.wanted()) set(received.page, MakePage(received.scene));
+  if (received.picture.wanted()) set(received.picture, MakePicture(received.scene, picture));
+  if (const absl::Status written =
+          Commit({&received.report_file, &received.plan, &received.picture, &received.page});
       !written.ok())
     return written;
   if (!CarriesProgram(received.report)) {
@@ -181,7 +196,7 @@ absl::Status WriteFiles(const MillOptions& options, Received& received) {
     return absl::DataLossError("the program did not arrive whole; nothing was written");
   }
   if (const absl::Status written = received.program.Commit(); !written.ok()) return written;
-  return page.status();
+  return previews;
 }
 
 // ", 4.1 m less if --allowance states the stock"; empty if that would save little.
@@ -295,10 +310,12 @@ absl::Status Run(const MillOptions& options, InterruptWatch& watch) {
   received.program = OutputFile(options.program);
   received.report_file = OutputFile(options.report);
   if (const absl::Status set = SetPreviews(options.previews, received); !set.ok()) return set;
+  const absl::StatusOr<PictureOptions> picture = MakePictureOptions(options.picture);
+  if (!picture.ok()) return picture.status();
   absl::StatusOr<v1::GenerateProgramRequest> request = MakeRequest(options);
   if (!request.ok()) return request.status();
-  if (const absl::Status writable =
-          CheckWritable({&received.program, &received.report_file, &received.picture, &received.page});
+  if (const absl::Status writable = CheckWritable(
+          {&received.program, &received.report_file, &received.plan, &received.picture, &received.page});
       !writable.ok())
     return writable;
   const v1::Operation& operation = request->job().operations(0);
@@ -321,7 +338,7 @@ absl::Status Run(const MillOptions& options, InterruptWatch& watch) {
   if (!status.ok()) return FromGrpc(status, options.common, watch);
   if (!received.complete)
     return absl::DataLossError("the answer ended without a report; nothing was written");
-  if (const absl::Status written = WriteFiles(options, received); !written.ok()) return written;
+  if (const absl::Status written = WriteFiles(options, *picture, received); !written.ok()) return written;
   PrintSummary(options, received.report);
   return absl::OkStatus();
 }
@@ -426,9 +443,12 @@ Command AddMill(CLI::App& app) {
       ->check(CLI::Range(1, 9999))
       ->capture_default_str();
   app.add_option("--report", options->report, "write the report here (.json)");
-  app.add_option("--preview", options->previews,
-                 "write a picture here (.svg), or a page that shows part and program in 3-D (.html)")
+  app.add_option(
+         "--preview", options->previews,
+         "write a plan here (.svg), a picture in 3-D (.png), or a page that shows part and program in 3-D\n"
+         "(.html); one of each at most")
       ->allow_extra_args(false);
+  AddPictureOptions(app, PictureOf::kProgram, options->picture);
   AddCommonOptions(app, options->common);
   return [options](InterruptWatch& watch) { return Run(*options, watch); };
 }

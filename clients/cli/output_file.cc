@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <system_error>
@@ -76,6 +77,7 @@ absl::Status OutputFile::CheckWritable() const {
       std::none_of(endings_.begin(), endings_.end(), [&](const std::string& e) { return EndsIn(e); })) {
     return absl::InvalidArgumentError(fmt::format("{}; must end in {}", path_, fmt::join(endings_, " or ")));
   }
+  if (is_standard_) return absl::OkStatus();
   std::error_code ignored;
   if (std::filesystem::is_directory(path_, ignored)) {
     return absl::InvalidArgumentError(fmt::format("{} is a directory", path_));
@@ -87,6 +89,10 @@ absl::Status OutputFile::CheckWritable() const {
 
 absl::Status OutputFile::Commit() const {
   if (const absl::Status unread = CheckNotRead(path_); !unread.ok()) return unread;
+  if (is_standard_) {
+    std::fflush(stdout);
+    return WriteAll(STDOUT_FILENO, bytes_) ? absl::OkStatus() : Fault("the standard output");
+  }
   if (IsSpecial(path_)) {
     const int file = open(path_.c_str(), O_WRONLY);
     if (file < 0) return Fault(path_);

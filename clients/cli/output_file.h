@@ -14,10 +14,12 @@ namespace patchmill::cli {
 class OutputFile {
  public:
   OutputFile() = default;
-  // An empty path means that no file is wanted. `endings` lists the allowed endings (".json"); empty allows
-  // any.
+  // An empty path means that no file is wanted, and "-" the standard output. `endings` lists the allowed
+  // endings (".json"); empty allows any. The standard output takes the first one.
   explicit OutputFile(std::string path, std::vector<std::string> endings = {})
-      : path_(std::move(path)), endings_(std::move(endings)) {}
+      : path_(path == "-" ? "/dev/stdout" : std::move(path)),
+        endings_(std::move(endings)),
+        is_standard_(path_ == "/dev/stdout") {}
 
   bool wanted() const { return !path_.empty(); }
   const std::string& path() const { return path_; }
@@ -25,7 +27,12 @@ class OutputFile {
   void Append(std::string_view bytes) { bytes_ += bytes; }
   void Set(std::string bytes) { bytes_ = std::move(bytes); }
 
-  bool EndsIn(const std::string& ending) const { return absl::EndsWithIgnoreCase(path_, ending); }
+  // Whether the result is the standard output, so that nothing else may be printed there.
+  bool is_standard() const { return is_standard_; }
+  bool EndsIn(const std::string& ending) const {
+    if (is_standard_) return !endings_.empty() && endings_.front() == ending;
+    return absl::EndsWithIgnoreCase(path_, ending);
+  }
   // OK if the ending is allowed, Commit can write the file, and the file is no input of this command.
   absl::Status CheckWritable() const;
   // Writes under a temporary name beside the target, then renames it. A target that is no regular file
@@ -35,6 +42,7 @@ class OutputFile {
  private:
   std::string path_;
   std::vector<std::string> endings_;
+  bool is_standard_ = false;
   std::string bytes_;  // in memory until it is known to be good
 };
 

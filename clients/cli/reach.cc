@@ -60,7 +60,7 @@ absl::Status Run(const ReachOptions& options, InterruptWatch& watch) {
   if (!response.ok()) return response.status();
   if (output.wanted()) output.Set(Json(*response));
   if (const absl::Status written = Commit({&output}); !written.ok()) return written;
-  if (!options.common.quiet || !output.wanted()) Print(*response);
+  if (!output.is_standard() && (!options.common.quiet || !output.wanted())) Print(*response);
   return absl::OkStatus();
 }
 

@@ -10,6 +10,7 @@
 #include "clients/cli/job_options.h"
 #include "clients/cli/limit_options.h"
 #include "clients/cli/output_file.h"
+#include "clients/cli/picture_options.h"
 #include "clients/cli/region_options.h"
 #include "clients/cli/scene.h"
 #include "clients/cli/text.h"
@@ -29,7 +30,10 @@ struct RegionsOptions {
   LimitOptions limits;
   RegionChangeOptions regions;
   std::string model, output;
+  PictureFlags picture;
 };
+
+bool IsIn3d(const OutputFile& output) { return output.EndsIn(".html") || output.EndsIn(".png"); }
 
 absl::StatusOr<v1::SplitRegionsRequest> MakeRequest(const RegionsOptions& options, const OutputFile& output) {
   v1::SplitRegionsRequest request;
@@ -55,7 +59,7 @@ absl::StatusOr<v1::SplitRegionsRequest> MakeRequest(const RegionsOptions& option
   job.set_name(WireText(std::filesystem::path(options.model).filename().string(), 100));
   request.add_outputs(v1::OUTPUT_REGIONS);
   if (output.EndsIn(".svg")) request.add_outputs(v1::OUTPUT_PICTURE);
-  if (output.EndsIn(".html")) request.add_outputs(v1::OUTPUT_TESSELLATION);
+  if (IsIn3d(output)) request.add_outputs(v1::OUTPUT_TESSELLATION);
   request.set_max_threads(options.common.threads);
   return request;
 }
@@ -133,8 +137,8 @@ void Print(const v1::RegionMap& map) {
 }
 
 // The part and its regions in 3-D.
-absl::StatusOr<std::string> Page(const RegionsOptions& options, const v1::SplitRegionsRequest& request,
-                                 const v1::SplitRegionsResponse& response) {
+Scene MakeScene(const RegionsOptions& options, const v1::SplitRegionsRequest& request,
+                const v1::SplitRegionsResponse& response) {
   Scene scene;
   scene.title = request.job().name();
   scene.setup = request.job().setup();
@@ -145,11 +149,13 @@ absl::StatusOr<std::string> Page(const RegionsOptions& options, const v1::SplitR
   scene.regions = response.regions();
   scene.mesh = {response.mesh().begin(), response.mesh().end()};
   *scene.report.mutable_diagnostics() = response.diagnostics();
-  return MakePage(scene);
+  return scene;
 }
 
 absl::Status Run(const RegionsOptions& options, InterruptWatch& watch) {
-  OutputFile output(options.output, {".json", ".svg", ".html"});
+  OutputFile output(options.output, {".json", ".svg", ".png", ".html"});
+  const absl::StatusOr<PictureOptions> picture = MakePictureOptions(options.picture);
+  if (!picture.ok()) return picture.status();
   if (output.EndsIn(".html")) {
     if (const absl::Status can = CheckPage(); !can.ok()) return can;
   }
@@ -159,10 +165,10 @@ absl::Status Run(const RegionsOptions& options, InterruptWatch& watch) {
   absl::StatusOr<v1::SplitRegionsResponse> response =
       Call(options.common, watch, &v1::AnalysisService::Stub::SplitRegions, *request);
   if (!response.ok()) return response.status();
-  if (output.EndsIn(".html")) {
-    absl::StatusOr<std::string> page = Page(options, *request, *response);
-    if (!page.ok()) return page.status();
-    output.Set(*std::move(page));
+  if (IsIn3d(output)) {
+    absl::StatusOr<std::string> made = MakePreview(MakeScene(options, *request, *response), output, *picture);
+    if (!made.ok()) return made.status();
+    output.Set(*std::move(made));
   } else if (output.wanted()) {
     output.Set(response->has_picture() ? response->picture().data() : Json(*response));
   }
@@ -172,7 +178,7 @@ absl::Status Run(const RegionsOptions& options, InterruptWatch& watch) {
     if (finding.severity() != v1::SEVERITY_INFO && !finding.where().field().empty())
       fmt::print(stderr, "{}\n", Line(finding));
   }
-  if (!options.common.quiet || !output.wanted()) Print(response->regions());
+  if (!output.is_standard() && (!options.common.quiet || !output.wanted())) Print(response->regions());
   return absl::OkStatus();
 }
 
@@ -181,7 +187,8 @@ absl::Status Run(const RegionsOptions& options, InterruptWatch& watch) {
 Command AddRegions(CLI::App& app) {
   auto options = std::make_shared<RegionsOptions>();
   app.add_option("MODEL", options->model, kModelHelp)->required();
-  app.add_option("-o,--output", options->output, "the region map: .json, .svg, or .html in 3-D");
+  app.add_option("-o,--output", options->output, "the region map: .json, .svg, or in 3-D .png or .html");
+  AddPictureOptions(app, PictureOf::kRegions, options->picture);
   AddSplitOptions(app, options->operation);
   AddShankOptions(app, options->operation.shank);
   app.add_option("--strategy", options->operation.strategy,

@@ -2,16 +2,12 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <cstring>
-#include <limits>
 #include <map>
-#include <numbers>
 #include <string_view>
 #include <utility>
 
-#include <absl/strings/ascii.h>
 #include <absl/strings/escaping.h>
 #include <absl/strings/str_replace.h>
 #include <fmt/format.h>
@@ -19,7 +15,9 @@
 #include <google/protobuf/io/zero_copy_stream_impl_lite.h>
 #include <google/protobuf/struct.pb.h>
 
+#include "clients/cli/scene_bodies.h"
 #include "clients/cli/scene_buffers.h"
+#include "clients/cli/scene_words.h"
 #include "clients/cli/text.h"
 #include "clients/cli/viewer_page.h"
 
@@ -54,82 +52,14 @@ void SetPoint(Struct& object, const std::string& name, const v1::Point3& p) {
   for (const double x : {p.x_mm(), p.y_mm(), p.z_mm()}) list.add_values()->set_number_value(x);
 }
 
-// The colours of the SVG pictures (cam/plan/job_preview.cc): mountain red, basin blue, neutral green, steep
-// stronger than gentle; out of reach by reason.
-std::string ColorOf(const v1::Region& region) {
-  using Rgb = std::array<int, 3>;
-  const bool steep = region.slope() == v1::SLOPE_STEEP;
-  Rgb rgb{120, 120, 120};
-  switch (region.kind()) {
-    case v1::REGION_KIND_MOUNTAIN:
-      rgb = steep ? Rgb{230, 120, 95} : Rgb{250, 205, 175};
-      break;
-    case v1::REGION_KIND_BASIN:
-      rgb = steep ? Rgb{95, 145, 225} : Rgb{180, 212, 250};
-      break;
-    case v1::REGION_KIND_NEUTRAL:
-      rgb = steep ? Rgb{120, 185, 110} : Rgb{205, 232, 195};
-      break;
-    default: {
-      static const std::map<v1::UnreachableReason, Rgb> kOfReason = {
-          {v1::UNREACHABLE_REASON_CONCAVE, {150, 120, 165}},
-          {v1::UNREACHABLE_REASON_FLOOR, {165, 150, 105}},
-          {v1::UNREACHABLE_REASON_SHANK, {95, 145, 140}},
-          {v1::UNREACHABLE_REASON_HOLDER, {70, 110, 150}},
-          {v1::UNREACHABLE_REASON_OUTSIDE, {175, 175, 180}}};
-      if (const auto found = kOfReason.find(region.unreachable_reason()); found != kOfReason.end())
-        rgb = found->second;
-    }
-  }
-  if (region.unreachable_reason() == v1::UNREACHABLE_REASON_STRATEGY) rgb = {245, 220, 90};
-  const int shift = (region.id() % 3 - 1) * 9;
-  for (int& c : rgb) c = std::clamp(c + shift, 0, 255);
-  return fmt::format("#{:02x}{:02x}{:02x}", rgb[0], rgb[1], rgb[2]);
-}
-
 void AddRegions(const v1::RegionMap& map, Struct& header) {
   ListValue& list = NewList(header, "regions");
   for (const v1::Region& region : map.regions()) {
-    const bool unreached = region.kind() == v1::REGION_KIND_UNREACHABLE;
     Struct& item = *list.add_values()->mutable_struct_value();
     Set(item, "id", region.id());
-    std::string name = fmt::format("{} ", region.id());
-    if (unreached) {
-      name += fmt::format("{}: {:.1f} mm2, {:.2f} mm stays", Short(region.unreachable_reason()),
-                          region.area_mm2(), region.deepest_leftover_mm());
-    } else {
-      name += fmt::format("{}, {}: {:.1f} mm2", absl::AsciiStrToLower(Short(region.kind())),
-                          absl::AsciiStrToLower(Short(region.slope())), region.area_mm2());
-    }
-    Set(item, "name", name);
-    Set(item, "color", ColorOf(region));
-    Set(item, "unreachable", unreached ? Short(region.unreachable_reason()) : "");
-  }
-}
-
-// "open edge".
-std::string BorderName(v1::BorderKind kind) {
-  return absl::StrReplaceAll(absl::AsciiStrToLower(Short(kind)), {{"_", " "}});
-}
-
-const char* BorderColor(v1::BorderKind kind) {
-  switch (kind) {
-    case v1::BORDER_KIND_SLOPE:
-      return "#c2410c";
-    case v1::BORDER_KIND_CURVATURE:
-      return "#0f766e";
-    case v1::BORDER_KIND_SILHOUETTE:
-      return "#7c3aed";
-    case v1::BORDER_KIND_WATERSHED:
-      return "#1d4ed8";
-    case v1::BORDER_KIND_SEAM:
-      return "#be185d";
-    case v1::BORDER_KIND_STRATEGY:
-      return "#854d0e";
-    case v1::BORDER_KIND_OPEN_EDGE:
-      return "#808080";
-    default:
-      return "#303030";
+    Set(item, "name", RegionName(region));
+    Set(item, "color", RegionColor(region));
+    Set(item, "unreachable", IsUnreached(region) ? Short(region.unreachable_reason()) : "");
   }
 }
 
@@ -150,24 +80,6 @@ void AddBorders(const v1::RegionMap& map, Struct& header, SceneBuffers& buffers)
     Set(item, "count", static_cast<double>(points.size() / 3 + (line.closed() ? 1 : 0)));
   }
   buffers.Add("border.position", positions);
-}
-
-struct BoxOf {
-  std::array<double, 3> min, max;
-};
-
-BoxOf MeshBox(const std::vector<v1::MeshBlock>& mesh) {
-  BoxOf box;
-  box.min.fill(std::numeric_limits<double>::infinity());
-  box.max.fill(-std::numeric_limits<double>::infinity());
-  for (const v1::MeshBlock& block : mesh) {
-    for (int i = 0; i < block.position_mm_size(); ++i) {
-      const auto k = static_cast<std::size_t>(i % 3);
-      box.min[k] = std::min(box.min[k], static_cast<double>(block.position_mm(i)));
-      box.max[k] = std::max(box.max[k], static_cast<double>(block.position_mm(i)));
-    }
-  }
-  return box;
 }
 
 void AddMesh(const std::vector<v1::MeshBlock>& mesh, Struct& header, SceneBuffers& buffers) {
@@ -211,7 +123,6 @@ void AddMesh(const std::vector<v1::MeshBlock>& mesh, Struct& header, SceneBuffer
   buffers.Add("mesh.surface", surface);
 }
 
-constexpr std::array<const char*, 5> kPassNames = {"zig-zag", "contour", "border", "pencil", "rest"};
 constexpr std::uint8_t kBetweenPasses = 255;
 
 // A section begins where the region or the kind of the passes changes.
@@ -306,50 +217,26 @@ void AddTool(const v1::Tool& tool, Struct& header) {
   }
 }
 
-void AddOutline(const google::protobuf::RepeatedField<double>& xy, Struct& item) {
+void AddOutline(const Prism& prism, Struct& item) {
   ListValue& outline = NewList(item, "outline");
-  for (int i = 0; i + 1 < xy.size(); i += 2) Add(outline, {xy[i], xy[i + 1]});
+  for (const auto& [x, y] : prism.outline) Add(outline, {x, y});
 }
 
-// The stock has no lower end; it is drawn down to the lowest point of the part.
-void AddStock(const Scene& scene, const BoxOf& part, Struct& header) {
-  const v1::Stock& stock = scene.setup.stock();
-  if (stock.body_case() == v1::Stock::BODY_NOT_SET) return SetNull(header, "stock");
+void AddStock(const std::optional<Prism>& stock, Struct& header) {
+  if (!stock) return SetNull(header, "stock");
   Struct& item = *In(header, "stock").mutable_struct_value();
-  Set(item, "bottom", part.min[2]);
-  const bool judged = scene.report.has_setup_sheet();
-  Set(item, "top",
-      judged ? scene.report.setup_sheet().stock_top_z_mm()
-             : (stock.has_top_z_mm() ? stock.top_z_mm() : part.max[2]));
-  ListValue& outline = NewList(item, "outline");
-  if (stock.has_block()) {
-    const double margin = stock.block().margin_mm();
-    const double x0 = part.min[0] - margin, x1 = part.max[0] + margin;
-    const double y0 = part.min[1] - margin, y1 = part.max[1] + margin;
-    for (const auto& [x, y] : {std::pair(x0, y0), std::pair(x1, y0), std::pair(x1, y1), std::pair(x0, y1)})
-      Add(outline, {x, y});
-  } else if (stock.has_outline()) {
-    AddOutline(stock.outline().outline_xy_mm(), item);
-  } else {
-    const auto& center = stock.cylinder().center_xy_mm();
-    const double x = center.size() == 2 ? center[0] : 0.5 * (part.min[0] + part.max[0]);
-    const double y = center.size() == 2 ? center[1] : 0.5 * (part.min[1] + part.max[1]);
-    constexpr int kCorners = 96;
-    for (int k = 0; k < kCorners; ++k) {
-      const double angle = 2.0 * std::numbers::pi * k / kCorners, r = 0.5 * stock.cylinder().diameter_mm();
-      Add(outline, {x + r * std::cos(angle), y + r * std::sin(angle)});
-    }
-  }
+  Set(item, "bottom", stock->bottom);
+  Set(item, "top", stock->top);
+  AddOutline(*stock, item);
 }
 
-void AddClamps(const v1::Setup& setup, Struct& header) {
+void AddClamps(const std::vector<Prism>& clamps, Struct& header) {
   ListValue& list = NewList(header, "clamps");
-  for (int k = 0; k < setup.obstacles_size(); ++k) {
-    const v1::Obstacle& obstacle = setup.obstacles(k);
+  for (const Prism& clamp : clamps) {
     Struct& item = *list.add_values()->mutable_struct_value();
-    Set(item, "name", obstacle.id().empty() ? fmt::format("obstacle #{}", k) : obstacle.id());
-    AddOutline(obstacle.outline_xy_mm(), item);
-    Set(item, "top", obstacle.top_z_mm());
+    Set(item, "name", clamp.name);
+    AddOutline(clamp, item);
+    Set(item, "top", clamp.top);
   }
 }
 
@@ -440,15 +327,15 @@ absl::StatusOr<std::string> MakePage(const Scene& scene) {
     SetNull(header, "scallop");
   }
   Set(header, "steep_angle", scene.steep_angle);
-  const BoxOf box = MeshBox(scene.mesh);
+  const render::Box box = BoxOf(scene.mesh);
   Struct& corners = *In(header, "box").mutable_struct_value();
   for (const auto& [name, corner] : {std::pair("min", box.min), std::pair("max", box.max)}) {
     ListValue& list = NewList(corners, name);
     for (const double x : corner) list.add_values()->set_number_value(x);
   }
   AddTool(scene.tool, header);
-  AddStock(scene, box, header);
-  AddClamps(scene.setup, header);
+  AddStock(StockOf(scene, box), header);
+  AddClamps(ClampsOf(scene.setup, box.min[2]), header);
   AddReport(scene.report, header);
   AddRegions(scene.regions, header);
   AddBorders(scene.regions, header, buffers);

@@ -12,6 +12,7 @@
 #include "clients/cli/job_options.h"
 #include "clients/cli/limit_options.h"
 #include "clients/cli/output_file.h"
+#include "clients/cli/picture_options.h"
 #include "clients/cli/post_options.h"
 #include "clients/cli/progress_bar.h"
 #include "clients/cli/region_options.h"
@@ -32,6 +33,7 @@ struct VerifyOptions {
   std::string model, program, report, preview, tolerance_map, strategy = "auto";
   std::optional<double> tool_diameter;
   std::vector<std::string> tools;
+  PictureFlags picture;
   double tolerance = 0.01, leave = 0.0, zigzag_angle = 0.0, steep_angle = 45.0;
   double detail = 0.5, accept_depth = 0.0;
   bool keep_feed = false;
@@ -197,15 +199,17 @@ Scene BareScene(const VerifyOptions& options, const v1::VerifyProgramRequest& re
 
 absl::Status Run(const VerifyOptions& options, InterruptWatch& watch) {
   OutputFile report_file(options.report);
-  OutputFile page_file(options.preview, {".html"});
-  if (page_file.wanted()) {
+  OutputFile preview(options.preview, {".png", ".html"});
+  const absl::StatusOr<PictureOptions> picture = MakePictureOptions(options.picture);
+  if (!picture.ok()) return picture.status();
+  if (preview.EndsIn(".html")) {
     if (const absl::Status can = CheckPage(); !can.ok()) return can;
   }
   OutputFile map_csv(MapPath(options.tolerance_map, ".csv"));
   OutputFile map_png(MapPath(options.tolerance_map, ".png"));
   absl::StatusOr<v1::VerifyProgramRequest> request = MakeRequest(options);
   if (!request.ok()) return request.status();
-  if (const absl::Status writable = CheckWritable({&report_file, &page_file, &map_csv, &map_png});
+  if (const absl::Status writable = CheckWritable({&report_file, &preview, &map_csv, &map_png});
       !writable.ok()) {
     return writable;
   }
@@ -237,15 +241,21 @@ absl::Status Run(const VerifyOptions& options, InterruptWatch& watch) {
   if (!status.ok()) return FromGrpc(status, options.common, watch);
   if (!complete) return absl::DataLossError("the answer ended without a report");
   if (report_file.wanted()) report_file.Set(Json(report));
-  if (page_file.wanted()) {
+  absl::StatusOr<std::string> made = std::string();
+  if (preview.wanted()) {
     scene.report = report;
-    absl::StatusOr<std::string> page = MakePage(scene);
-    if (!page.ok()) return page.status();
-    page_file.Set(*std::move(page));
+    made = MakePreview(scene, preview, *picture);
+    // A preview that cannot be made keeps nothing else from being written.
+    if (made.ok()) {
+      preview.Set(*std::move(made));
+    } else {
+      preview = OutputFile();
+    }
   }
-  if (const absl::Status written = Commit({&report_file, &page_file, &map_csv, &map_png}); !written.ok())
+  if (const absl::Status written = Commit({&report_file, &preview, &map_csv, &map_png}); !written.ok())
     return written;
   Print(options, report);
+  if (!made.ok()) return made.status();
   return Verdict(options, report.outcome());
 }
 
@@ -304,7 +314,9 @@ Command AddVerify(CLI::App& app) {
             "machine Z from which up a place of G53 is above everything, mm; default: -10, or machine_top of "
             "the dialect if that is lower");
   app.add_option("--report", options->report, "write the report here (.json)");
-  app.add_option("--preview", options->preview, "write a page that shows part and program in 3-D (.html)");
+  app.add_option("--preview", options->preview,
+                 "write a picture in 3-D (.png), or a page that shows part and program in 3-D (.html)");
+  AddPictureOptions(app, PictureOf::kProgram, options->picture);
   app.add_option("--tolerance-map", options->tolerance_map,
                  "write what is left over the part: FILE.csv with places and FILE.png from above");
   AddCommonOptions(app, options->common);

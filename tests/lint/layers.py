@@ -56,7 +56,8 @@ for name in SERVER:
 for name in ["import", "import/occt"]:
     ALLOWED[name] = UP_TO_NETWORK | {"core/brep", "core/trim", "import", "import/occt"} | PROTO
 # Clients speak proto. The command line may start the server inside its own process, through these headers, and nothing else.
-ALLOWED["clients/cli"] = set(PROTO)
+ALLOWED["clients/render"] = set()
+ALLOWED["clients/cli"] = set(PROTO) | {"clients/render"}
 EXTRA_FILES = {"clients/cli": {"server/server.h", "server/options.h", "server/serve_flags.h"}}
 
 INCLUDE = re.compile(r'^\s*#\s*include\s+"([^"]+)"', re.M)

@@ -205,10 +205,10 @@ TEST_F(CliPage, RegionsAndVerifyWriteThemToo) {
 }
 
 TEST_F(CliPage, OtherEndingsAndTwoPagesAreRefused) {
-  EXPECT_EQ(Mill({"--preview", out_ / "part.png"}, model_).status, 2);
+  EXPECT_EQ(Mill({"--preview", out_ / "part.gif"}, model_).status, 2);
   const Finished two = Mill({"--preview", out_ / "a.html", "--preview", out_ / "b.html"}, model_);
   EXPECT_EQ(two.status, 2);
-  EXPECT_THAT(two.err, HasSubstr("one picture (.svg) and one page (.html)"));
+  EXPECT_THAT(two.err, HasSubstr("one .svg, one .png and one .html at most"));
   EXPECT_THAT(out_.Names(), IsEmpty());
 }
 

@@ -1,0 +1,1 @@
+patchmill_test(clients/render DEPS clients/render)
