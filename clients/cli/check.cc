@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include <fmt/format.h>
@@ -20,6 +21,7 @@ struct CheckOptions {
   std::string model;
   double tool_diameter = 6.0;
   int continuity = 0;
+  bool all_findings = false;
 };
 
 // A line for each axis of the model that could point up.
@@ -70,7 +72,8 @@ void Print(const CheckOptions& options, const v1::CheckModelResponse& response) 
     fmt::print("\n");
   }
   fmt::print("findings     {}\n", response.diagnostics_size());
-  for (const v1::Diagnostic& finding : response.diagnostics()) fmt::print("  {}\n", Line(finding));
+  for (const std::string& line : FindingLines(response.diagnostics(), options.all_findings))
+    fmt::print("  {}\n", line);
 }
 
 absl::Status Run(const CheckOptions& options, InterruptWatch& watch) {
@@ -104,6 +107,8 @@ Command AddCheck(CLI::App& app) {
   app.add_option("--continuity", options->continuity,
                  "list every joint, measured at this many equal steps of its edge")
       ->check(CLI::Range(0, 10000));
+  app.add_flag("--all-findings", options->all_findings,
+               "list every finding, not just the first few of each code");
   AddReadingOptions(app, options->reading);
   AddSetupOptions(app, options->setup);
   AddCommonOptions(app, options->common);

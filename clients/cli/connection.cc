@@ -3,6 +3,7 @@
 #include <chrono>
 #include <csignal>
 #include <mutex>
+#include <string_view>
 
 #include <fmt/format.h>
 #include <grpcpp/channel.h>
@@ -18,8 +19,13 @@ namespace {
 
 constexpr std::size_t kMaxMessageBytes = kMaxFileBytes;  // of client and server
 
+// The service knows a model by its field, the user by its file.
 std::string InWords(const grpc::Status& status) {
   const std::string& message = status.error_message();
+  for (const std::string_view field : {"model file: ", "job.source.file.content.", "source.file.content."}) {
+    if (NameOfModel().empty() || message.compare(0, field.size(), field) != 0) continue;
+    return fmt::format("{}: {}", NameOfModel(), message.substr(field.size()));
+  }
   const char* option = OptionOf(message);
   return option != nullptr ? fmt::format("{}: {}", option, message) : message;
 }

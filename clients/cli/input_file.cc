@@ -15,7 +15,15 @@ std::vector<std::string>& Read() {
   return paths;
 }
 
+std::string& Model() {
+  static std::string path;
+  return path;
+}
+
 }  // namespace
+
+void NameModel(const std::string& path) { Model() = path; }
+const std::string& NameOfModel() { return Model(); }
 
 const std::vector<std::string>& FilesRead() { return Read(); }
 

@@ -18,4 +18,8 @@ absl::StatusOr<std::string> ReadWholeFile(const std::string& path);
 // All paths that ReadWholeFile has read. No result replaces one of these files (output_file.h).
 const std::vector<std::string>& FilesRead();
 
+// The model of the command, for messages about its content. Empty before one was read.
+void NameModel(const std::string& path);
+const std::string& NameOfModel();
+
 }  // namespace patchmill::cli

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <sstream>
 
+#include <absl/strings/ascii.h>
 #include <fmt/format.h>
 
 #include "clients/cli/input_file.h"
@@ -31,8 +32,9 @@ CLI::Option* AddNumberOf(CLI::App& app, const std::string& name, Value& value, c
   return option->check(kFinite)->capture_default_str();
 }
 
-// The axis of this name; nothing for any other text.
-std::optional<v1::UpAxis> MakeUp(const std::string& name) {
+// The axis of this name, in small letters or capitals; nothing for any other text.
+std::optional<v1::UpAxis> MakeUp(const std::string& given) {
+  const std::string name = absl::AsciiStrToLower(given);
   if (name == "auto") return v1::UP_AXIS_AUTO;
   if (name == "z") return v1::UP_AXIS_Z;
   if (name == "y") return v1::UP_AXIS_Y;
@@ -372,6 +374,10 @@ absl::StatusOr<v1::Operation> MakeOperation(const OperationOptions& options) {
 }
 
 void AddReadingOptions(CLI::App& app, ReadingOptions& options) {
+  app.add_option(
+         "--length-unit", options.length_unit,
+         "unit of a model file that states none (.bpt, .bv, .bez, .patches); default mm, with a finding")
+      ->check(CLI::IsMember({"mm", "inch", "m"}));
   AddNumber(
       app, "--border-tolerance", options.border_tolerance,
       "CAD files: how far the borders of patches may lie from the edges of faces where they cannot follow "
@@ -386,6 +392,7 @@ void AddReadingOptions(CLI::App& app, ReadingOptions& options) {
 absl::StatusOr<v1::ModelSource> ReadModel(const std::string& path, const ReadingOptions& options) {
   absl::StatusOr<std::string> bytes = ReadWholeFile(path);
   if (!bytes.ok()) return bytes.status();
+  NameModel(path);
   v1::ModelSource source;
   v1::ModelFile& file = *source.mutable_file();
   std::string ending = std::filesystem::path(path).extension().string();
@@ -398,6 +405,9 @@ absl::StatusOr<v1::ModelSource> ReadModel(const std::string& path, const Reading
     file.set_format(ending.substr(1));
   }
   file.set_content(*std::move(bytes));
+  if (options.length_unit == "mm") file.set_length_unit(v1::LENGTH_UNIT_MILLIMETER);
+  if (options.length_unit == "inch") file.set_length_unit(v1::LENGTH_UNIT_INCH);
+  if (options.length_unit == "m") file.set_length_unit(v1::LENGTH_UNIT_METER);
   for (const std::string& id : options.skip_faces)
     file.mutable_import_options()->add_skip_faces(WireText(id, 200));
   if (options.border_tolerance) {

@@ -1,59 +1,129 @@
 // patchmill: the command line.
 #include <cstdio>
 #include <map>
+#include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include "clients/cli/commands.h"
+#include "clients/cli/default_file.h"
+#include "clients/cli/help_pages.h"
+#include "clients/cli/option_groups.h"
+#include "clients/cli/shared_options.h"
+#include "clients/cli/unknown_words.h"
 #include "server/serve_flags.h"
 #include "server/server.h"
 
 namespace patchmill::cli {
 namespace {
 
+constexpr char kVersion[] = "patchmill " PATCHMILL_VERSION;
+
+// A command of the command line: how it is called, what it does, and a call of it.
+struct CommandEntry {
+  const char* name;
+  const char* help;
+  const char* example;
+  Command (*add)(CLI::App&);
+};
+
+constexpr CommandEntry kEntries[] = {
+    {"mill", "plan, write and verify a program",
+     "mill part.step -o part.ngc --tool-diameter 6 --scallop 0.01", AddMill},
+    {"check", "check a model: patches, joints, curvature against the tool",
+     "check part.step --tool-diameter 6", AddCheck},
+    {"faces", "list the faces of a CAD file: ids, names, kinds, sizes", "faces part.step", AddFaces},
+    {"convert", "write a model of any format, CAD files too, as a .pb or .json file",
+     "convert part.step part.json", AddConvert},
+    {"regions", "split the surface into regions: steep and gentle, mountain and basin, unreachable",
+     "regions part.step -o regions.svg --tool-diameter 6", AddRegions},
+    {"reach", "how much of the surface each of several balls does not reach",
+     "reach part.step --tool-diameters 2,4,6,10", AddReach},
+    {"verify", "measure any program against the exact surface",
+     "verify part.step part.ngc --tool-diameter 6 --scallop 0.01 --dialect fanuc", AddVerify},
+    {"posts", "list the dialects of programs, or print the post file of one", "posts fanuc > shop.post",
+     AddPosts},
+    {"lines", "trace contours, silhouettes, highlights and other lines of the surface",
+     "lines part.step --kind contour --spacing 2 -o contours.svg", AddLines},
+    {"evaluate", "points, derivatives, fundamental forms and curvatures of the surface",
+     "evaluate part.step --at 0,0.5,0.5", AddEvaluate},
+    {"build", "make a first surface from sections or boundary curves", "build sections.json -o skin.json",
+     AddBuild},
+    {"edit", "edit a curve network", "edit sheet.json -o pushed.json --edits edges.json", AddEdit},
+    {"fair", "fair a measured curve or net of points", "fair wing.dat -o faired.dat --preview wing.svg",
+     AddFair},
+};
+
+// The words of the command line that nothing has, with those that may be meant, or what else is wrong with
+// it.
+int UsageError(const CLI::App& app, const CLI::ParseError& error) {
+  const std::string unknown = UnknownWords(app);
+  if (unknown.empty()) return app.exit(error) == 0 ? 0 : 2;
+  fmt::print(stderr, "{}Run with --help for more information.\n", unknown);
+  return 2;
+}
+
 int Main(int argc, char** argv) {
-  CLI::App app("patchmill: verified ball-end-mill programs from free-form patch models");
-  app.set_version_flag("--version",
-                       "patchmill " PATCHMILL_VERSION
+  CLI::App app("patchmill: verified ball-end-mill programs from free-form patch models", "patchmill");
+  app.set_version_flag(
+      "--version", std::string(kVersion) +
                        "\nSTEP and IGES are read by patchmill-import, which uses Open CASCADE Technology");
   app.require_subcommand(1);
   app.footer(
       "Exit status: 0 the command is done; 1 the job could not be done, or a verification failed; 2 the "
       "usage "
       "is wrong, or the input is unreadable.");
+  std::string config;  // taken from the arguments before they are parsed; here for --help
+  app.add_option(
+      "--config", config,
+      "file with a shop's defaults: lines \"spindle = 8000\", for one command below a line \"[mill]\"");
   std::map<CLI::App*, Command> commands;
-  const auto add = [&](const char* name, const char* help, Command (*add_command)(CLI::App&)) {
-    CLI::App* command = app.add_subcommand(name, help);
-    commands[command] = add_command(*command);
-  };
-  add("mill", "plan, write and verify a program", AddMill);
-  add("check", "check a model: patches, joints, curvature against the tool", AddCheck);
-  add("faces", "list the faces of a CAD file: ids, names, kinds, sizes", AddFaces);
-  add("convert", "write a model of any format, CAD files too, as a .pb or .json file", AddConvert);
-  add("regions", "split the surface into regions: steep and gentle, mountain and basin, unreachable",
-      AddRegions);
-  add("reach", "how much of the surface each of several balls does not reach", AddReach);
-  add("verify", "measure any program against the exact surface", AddVerify);
-  add("posts", "list the dialects of programs, or print the post file of one", AddPosts);
-  add("lines", "trace contours, silhouettes, highlights and other lines of the surface", AddLines);
-  add("evaluate", "points, derivatives, fundamental forms and curvatures of the surface", AddEvaluate);
-  add("build", "make a first surface from sections or boundary curves", AddBuild);
-  add("edit", "edit a curve network", AddEdit);
-  add("fair", "fair a measured curve or net of points", AddFair);
+  std::map<std::string, CLI::App*> of_name;
+  for (const CommandEntry& entry : kEntries) {
+    CLI::App* command = app.add_subcommand(entry.name, entry.help);
+    commands[command] = entry.add(*command);
+    of_name[entry.name] = command;
+    GroupOptions(*command);
+    command->footer(fmt::format("Example:\n  patchmill {}\n\n{}", entry.example, app.get_footer()));
+  }
+  for (const char* name : {"regions", "reach", "verify"}) AcceptOptionsOf(*of_name["mill"], *of_name[name]);
   CLI::App* serve = app.add_subcommand("serve", "run the service (also as patchmilld)");
   ServerOptions server;
   AddServeFlags(*serve, server);
+  CLI::App* completion =
+      app.add_subcommand("completion", "print a script that completes commands and options");
+  std::string shell = "bash";
+  completion->add_option("SHELL", shell, "the shell")->check(CLI::IsMember({"bash"}))->capture_default_str();
+  CLI::App* man = app.add_subcommand("man", "print the manual page, for man -l -");
 
+  absl::StatusOr<std::vector<std::string>> arguments = WithDefaults(app, {argv + 1, argv + argc});
+  if (!arguments.ok()) {
+    fmt::print(stderr, "patchmill: {}\n", std::string(arguments.status().message()));
+    return 2;
+  }
   try {
-    app.parse(argc, argv);
+    app.parse(
+        std::vector<std::string>(arguments->rbegin(), arguments->rend()));  // CLI11 takes the last one first
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : 2;
+    return UsageError(app, error);
   }
   if (serve->parsed()) return Serve(server);
+  if (completion->parsed()) {
+    fmt::print("{}", BashCompletion(app));
+    return 0;
+  }
+  if (man->parsed()) {
+    fmt::print("{}", ManPage(app, kVersion));
+    return 0;
+  }
   InterruptWatch watch;
   for (const auto& [command, run] : commands) {
     if (!command->parsed()) continue;
+    const std::vector<std::string> idle = GivenWithoutEffect(*command);
+    if (!idle.empty())
+      fmt::print(stderr, "patchmill {}: without effect: {}\n", command->get_name(), fmt::join(idle, " "));
     const absl::Status status = run(watch);
     if (!status.ok()) fmt::print(stderr, "patchmill: {}\n", std::string(status.message()));
     return ExitStatus(status);

@@ -38,6 +38,7 @@ constexpr Entry kOptions[] = {
     {"up_face", "--up"},
     {"skip_faces", "--skip-face"},
     {"border_tolerance_mm", "--border-tolerance"},
+    {"source.file.length_unit", "--length-unit"},
     {"scale", "--scale"},
     {"setup.translation.x_mm", "--translate"},
     {"setup.translation.y_mm", "--translate"},

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <memory>
 
 #include <absl/strings/ascii.h>
@@ -85,6 +86,29 @@ std::string Line(const v1::Diagnostic& finding) {
   const bool place_said = finding.message().find(" at X") != std::string::npos;
   if (where.has_point() && !place_said) text += " (at " + Line(where.point()) + ")";
   return text;
+}
+
+std::vector<std::string> FindingLines(const google::protobuf::RepeatedPtrField<v1::Diagnostic>& findings,
+                                      bool all) {
+  constexpr int kMany = 5, kShown = 3;
+  std::map<std::string, int> of_code, shown;
+  for (const v1::Diagnostic& finding : findings) ++of_code[finding.code()];
+  std::vector<std::string> lines;
+  for (const v1::Severity severity : {v1::SEVERITY_ERROR, v1::SEVERITY_WARNING, v1::SEVERITY_INFO}) {
+    for (const v1::Diagnostic& finding : findings) {
+      if (finding.severity() != severity) continue;
+      const int count = of_code[finding.code()];
+      const bool folded = !all && severity != v1::SEVERITY_ERROR && count > kMany;
+      const int number = ++shown[finding.code()];
+      if (!folded || number <= kShown) lines.push_back(Line(finding));
+      if (folded && number == kShown) {
+        lines.push_back(fmt::format("{} {}: {} more; --all-findings lists them",
+                                    severity == v1::SEVERITY_WARNING ? "WARNING" : "INFO", finding.code(),
+                                    count - kShown));
+      }
+    }
+  }
+  return lines;
 }
 
 int CountErrors(const google::protobuf::RepeatedPtrField<v1::Diagnostic>& findings) {

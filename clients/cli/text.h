@@ -3,6 +3,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <google/protobuf/message.h>
 #include <google/protobuf/struct.pb.h>
@@ -34,6 +35,10 @@ std::string Printable(const std::string& text);
 
 // "WARNING OPEN_EDGE patch 3: ...".
 std::string Line(const v1::Diagnostic& finding);
+// Findings as lines: errors first, then warnings, then the rest. Of a code that is no error and occurs more
+// than five times, three stand for all, with the number of the others, unless `all`.
+std::vector<std::string> FindingLines(const google::protobuf::RepeatedPtrField<v1::Diagnostic>& findings,
+                                      bool all);
 int CountErrors(const google::protobuf::RepeatedPtrField<v1::Diagnostic>& findings);
 // mm, along the line; from the last point to the first if it is closed.
 double LengthOf(const v1::BorderLine& line);

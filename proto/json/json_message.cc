@@ -1,5 +1,6 @@
 #include "proto/json/json_message.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -8,6 +9,8 @@
 #include <google/protobuf/io/zero_copy_stream_impl_lite.h>
 #include <google/protobuf/util/json_util.h>
 #include <google/protobuf/util/type_resolver_util.h>
+
+#include "proto/json/nearest_word.h"
 
 namespace patchmill {
 namespace {
@@ -85,6 +88,41 @@ class StoppedInput final : public google::protobuf::io::ZeroCopyInputStream {
   bool stopped_ = false;
 };
 
+// The message in a field of this message, by the beginning of a path: "patches[0].bezier". Empty: the message itself.
+const google::protobuf::Descriptor* MessageAt(const google::protobuf::Descriptor* message, std::string_view path) {
+  while (message != nullptr && !path.empty()) {
+    const std::size_t dot = std::min(path.find('.'), path.size());
+    const std::string name(path.substr(0, std::min(path.find('['), dot)));
+    const google::protobuf::FieldDescriptor* field = message->FindFieldByName(name);
+    if (field == nullptr) field = message->FindFieldByCamelcaseName(name);
+    message = field == nullptr ? nullptr : field->message_type();
+    path.remove_prefix(std::min(dot + 1, path.size()));
+  }
+  return message;
+}
+
+// "; did you mean degree_u?" for protobuf's complaint "(patches[0].bezier) degre_u: Cannot find field."; empty if
+// nothing is near.
+std::string NearField(const google::protobuf::Descriptor* message, std::string_view complaint) {
+  constexpr std::string_view kEnd = ": Cannot find field.";
+  if (complaint.size() < kEnd.size() || complaint.substr(complaint.size() - kEnd.size()) != kEnd) return "";
+  std::string_view name = complaint.substr(0, complaint.size() - kEnd.size());
+  if (!name.empty() && name.front() == '(') {
+    const std::size_t close = name.find(") ");
+    if (close == name.npos) return "";
+    message = MessageAt(message, name.substr(1, close - 1));
+    name.remove_prefix(close + 2);
+  }
+  if (message == nullptr) return "";
+  std::vector<std::string> fields;
+  for (int k = 0; k < message->field_count(); ++k) fields.emplace_back(message->field(k)->name());
+  const std::string near = NearestWord(name, fields);
+  if (!near.empty()) return absl::StrCat(" Did you mean ", near, "?");
+  std::string list;
+  for (const std::string& field : fields) absl::StrAppend(&list, list.empty() ? " There are " : ", ", field);
+  return list + ".";
+}
+
 }  // namespace
 
 absl::Status ReadJsonMessage(std::string_view text, google::protobuf::Message& message,
@@ -97,7 +135,10 @@ absl::Status ReadJsonMessage(std::string_view text, google::protobuf::Message& m
   const auto status = google::protobuf::util::JsonToBinaryStream(
       GeneratedTypes(), absl::StrCat(kTypePrefix, "/", message.GetDescriptor()->full_name()), &in, &out);
   if (in.stopped()) return absl::CancelledError("reading was stopped");
-  if (!status.ok()) return absl::InvalidArgumentError(std::string(status.message()));
+  if (!status.ok()) {
+    const std::string complaint(status.message());
+    return absl::InvalidArgumentError(complaint + NearField(message.GetDescriptor(), complaint));
+  }
   if (check) {
     if (absl::Status checked = check(wire); !checked.ok()) return checked;
   }

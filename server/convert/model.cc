@@ -27,6 +27,15 @@ std::optional<double> MillimetersPer(v1::LengthUnit unit) {
   }
 }
 
+std::string UnitFault(v1::LengthUnit unit) {
+  if (unit == v1::LENGTH_UNIT_UNSPECIFIED) {
+    return "is missing; add \"length_unit\": \"LENGTH_UNIT_MILLIMETER\", or LENGTH_UNIT_INCH or "
+           "LENGTH_UNIT_METER";
+  }
+  return fmt::format("= {}; must be LENGTH_UNIT_MILLIMETER, LENGTH_UNIT_INCH or LENGTH_UNIT_METER",
+                     static_cast<int>(unit));
+}
+
 namespace {
 
 // Fields that every model has: length unit in mm, and join tolerance.
@@ -40,9 +49,7 @@ absl::StatusOr<ModelHead> HeadOf(const v1::PatchModel& proto, std::string_view a
   FieldErrors errors;
   const std::optional<double> unit = MillimetersPer(proto.length_unit());
   if (!unit) {
-    errors.Add(At(at, "length_unit"),
-               fmt::format("= {}; must be LENGTH_UNIT_MILLIMETER, LENGTH_UNIT_INCH or LENGTH_UNIT_METER",
-                           static_cast<int>(proto.length_unit())));
+    errors.Add(At(at, "length_unit"), UnitFault(proto.length_unit()));
   }
   if (proto.has_network() && !proto.patches().empty()) {
     errors.Add(At(at, "network"), "is set together with patches; set one of them");

@@ -13,6 +13,8 @@ namespace patchmill {
 
 // The unit in mm. Nothing for an unspecified or unknown unit.
 std::optional<double> MillimetersPer(v1::LengthUnit unit);
+// What is wrong with a unit for which MillimetersPer is empty.
+std::string UnitFault(v1::LengthUnit unit);
 
 // A model and all its faults. The model may be used only if `faults` is empty.
 struct CheckedModel {

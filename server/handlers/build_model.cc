@@ -50,9 +50,7 @@ absl::Status HandleBuildModel(const Call& call, const v1::BuildModelRequest& req
   const std::optional<double> unit = MillimetersPer(request.length_unit());
   if (!unit) {
     FieldErrors errors;
-    errors.Add("length_unit",
-               fmt::format("= {}; must be LENGTH_UNIT_MILLIMETER, LENGTH_UNIT_INCH or LENGTH_UNIT_METER",
-                           static_cast<int>(request.length_unit())));
+    errors.Add("length_unit", UnitFault(request.length_unit()));
     return errors.ToStatus();
   }
   PM_RETURN_IF_ERROR(CheckNetworkLimits(request.network()));

@@ -57,14 +57,14 @@ TEST_F(PostedProgram, CallsTheToolOfTheJob) {
 }
 
 TEST_F(PostedProgram, UsesTheLengthOfTheTool) {
-  EXPECT_THAT(ErrorsWith(OwnFanuc("H{tool}", "H2")), HasSubstr("POST_LEAVES_TO_CONTROL"));
-  EXPECT_THAT(ErrorsWith(OwnFanuc("G43 H{tool} Z{z}", "Z{z}")), HasSubstr("no G43 is in force"));
+  EXPECT_THAT(ErrorsWith(OwnFanuc("H{tool}", "H2 (T{tool})")), HasSubstr("POST_LEAVES_TO_CONTROL"));
+  EXPECT_THAT(ErrorsWith(OwnFanuc("G43 H{tool} Z{z}", "Z{z} (T{tool})")), HasSubstr("no G43 is in force"));
 }
 
 TEST_F(PostedProgram, OfAControlWithoutLengthOffsetsNeedsNone) {
-  const std::string text =
-      absl::StrReplaceAll(FindDialect("fanuc")->text,
-                          {{"name = fanuc", "name = own\nlength_offset = no"}, {"G43 H{tool} Z{z}", "Z{z}"}});
+  const std::string text = absl::StrReplaceAll(
+      FindDialect("fanuc")->text,
+      {{"name = fanuc", "name = own\nlength_offset = no"}, {"G43 H{tool} Z{z}", "Z{z} (T{tool})"}});
   const absl::StatusOr<Dialect> dialect = ParseDialect(text);
   ASSERT_TRUE(dialect.ok()) << dialect.status();
   EXPECT_EQ(ErrorsWith(*dialect), "");
@@ -77,12 +77,11 @@ TEST_F(PostedProgram, RunsAtTheSpeedOfTheJob) {
 
 TEST_F(PostedProgram, StatesTheModes) {
   EXPECT_THAT(ErrorsWith(OwnFanuc("{work_offset}\n", "\n")), HasSubstr("no work offset is in force"));
-  EXPECT_THAT(ErrorsWith(OwnFanuc("G17 {unit} G40 G80 G90 G94", "{unit} G40 G80 G90 G94")),
-              HasSubstr("none of G17, G18 and G19"));
+  EXPECT_THAT(ErrorsWith(OwnFanuc("{unit} G40", "G40 ({unit})")), HasSubstr("neither G20 nor G21"));
 }
 
 TEST_F(PostedProgram, HasPointsWhereTheControlMayCountIncrements) {
-  EXPECT_THAT(ErrorsWith(OwnFanuc("G43 H{tool} Z{z}", "G43 H{tool} Z100")),
+  EXPECT_THAT(ErrorsWith(OwnFanuc("G43 H{tool} Z{z}", "G43 H{tool} Z100\nZ{z}")),
               HasSubstr("Z100 has no decimal point"));
 }
 
@@ -98,8 +97,7 @@ TEST_F(PostedProgram, MayBeStartedAtItsRestartPoints) {
            {"S{speed} M3", "S{speed}", "the spindle turns at 0 rpm"},
            {"{coolant}", "({coolant})", "the coolant is off"},
            {"G43 H{tool} Z{z}", "(T{tool})\nZ{z}", "no G43 is in force"},
-           {"{unit}", "({unit})", "neither G20 nor G21"},
-           {"G90 G94", "G94", "neither G90 nor G91"}}) {
+           {"{unit}", "({unit})", "neither G20 nor G21"}}) {
     const std::string changed = absl::StrReplaceAll(section, {{from, to}});
     ASSERT_NE(changed, section) << from;
     const absl::StatusOr<Dialect> dialect =
@@ -113,7 +111,7 @@ TEST_F(PostedProgram, MayBeStartedAtItsRestartPoints) {
 
 TEST_F(PostedProgram, NamesTheLineThatCannotBeReadBack) {
   job_.dialect = OwnFanuc("S{speed} M3", "S{speed} M3\nG123");
-  const absl::StatusOr<JobResult> result = RunJob(surface_, job_);
+  const absl::StatusOr<JobResult> result = RunJob(surface_, job_, RunContext());
   ASSERT_FALSE(result.ok());
   EXPECT_THAT(std::string(result.status().message()), HasSubstr("in \"G123\""));
 }

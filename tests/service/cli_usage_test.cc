@@ -1,0 +1,213 @@
+// The command line as people type it: slips, defaults of a shop, pages made of the options.
+#include <regex>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <google/protobuf/util/json_util.h>
+#include <gtest/gtest.h>
+
+#include "tests/service/patchmill.h"
+#include "tests/service/requests.h"
+
+namespace patchmill {
+namespace {
+
+using testing::Finished;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using testing::Patchmill;
+using testing::Slurp;
+using testing::TempDir;
+
+const std::vector<std::string> kCommands = {"mill",  "check",  "faces", "convert", "regions",
+                                            "reach", "verify", "posts", "lines",   "evaluate",
+                                            "build", "edit",   "fair"};
+
+TEST(CliUsage, NamesTheNearestCommandAndOption) {
+  const auto error = [](const std::vector<std::string>& arguments) {
+    const Finished run = Patchmill(arguments);
+    EXPECT_EQ(run.status, 2);
+    return run.err;
+  };
+  EXPECT_THAT(error({"mil", "part.step"}), HasSubstr("mil is no command; did you mean mill?"));
+  EXPECT_THAT(error({"mill", "part.step", "-o", "part.ngc", "--scalop", "0.01"}),
+              HasSubstr("--scalop is no option of mill; did you mean --scallop?"));
+  EXPECT_THAT(error({"mill", "part.step", "-o", "part.ngc", "--scalop=0.01"}),
+              HasSubstr("--scalop is no option of mill; did you mean --scallop?"));
+  EXPECT_THAT(error({"check", "part.step", "--tool-diamter", "6", "--quite"}),
+              ::testing::AllOf(HasSubstr("--tool-diameter?"), HasSubstr("--quiet?")));
+  EXPECT_THAT(error({"mill", "a.step", "b.step", "-o", "part.ngc"}),
+              HasSubstr("mill: b.step was not expected"));
+  EXPECT_THAT(error({"mill", "\x1b[2Jpart", "two\x07", "-o", "x.ngc"}), Not(HasSubstr("\x07")));
+  EXPECT_THAT(error({"xyzzy"}), HasSubstr("xyzzy is no command\n"));
+}
+
+TEST(CliUsage, HelpIsGroupedAndHasAnExample) {
+  for (const std::string& command : kCommands) {
+    const Finished run = Patchmill({command, "--help"});
+    EXPECT_EQ(run.status, 0);
+    EXPECT_THAT(run.out, HasSubstr("Example:\n  patchmill " + command + " ")) << command;
+    EXPECT_THAT(run.out, HasSubstr("\nService:\n")) << command;
+  }
+  const std::string mill = Patchmill({"mill", "--help"}).out;
+  std::size_t last = 0;
+  for (const char* group :
+       {"Part", "Tool", "Finish", "Stock and limits", "Motion", "Program", "Output", "Service"}) {
+    EXPECT_THAT(mill, HasSubstr("\n" + std::string(group) + ":\n"));
+    last = mill.find("\n" + std::string(group) + ":\n", 0);
+    EXPECT_NE(last, std::string::npos);
+  }
+  // Nothing but --help itself is in no group.
+  const std::string rest = mill.substr(mill.find("\nOptions:\n") + 10);
+  EXPECT_EQ(rest.substr(0, rest.find("\n\n")).find("--", rest.find("--help") + 2), std::string::npos);
+}
+
+class CliDefaults : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    std::string json;
+    ASSERT_TRUE(google::protobuf::util::MessageToJsonString(testing::HillAndPit(), &json).ok());
+    model_ = in_.Write("waves.json", json);
+  }
+  Finished Mill(const std::vector<std::string>& more) {
+    std::vector<std::string> arguments = {"mill", model_, "-o", out_ / "part.ngc", "--floor", "-8"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return Patchmill(arguments);
+  }
+  TempDir in_, out_;
+  std::string model_;
+};
+
+TEST_F(CliDefaults, OfAFileGiveTheSameProgram) {
+  ASSERT_EQ(Mill({"--scallop", "0.1", "--tolerance", "0.03", "--spindle", "8000", "--post", "fanuc",
+                  "--high-rapids"})
+                .status,
+            0);
+  const std::string program = Slurp(out_ / "part.ngc");
+  EXPECT_THAT(program, HasSubstr("S8000"));
+  const std::string shop =
+      in_.Write("shop.ini",
+                "# our mill\nscallop = 0.1\nspindle = 8000\nhigh-rapids = true\none-way = false\n\n"
+                "[mill]\ntolerance=0.03\npost = \"fanuc\"\n[verify]\ndialect = fanuc\n");
+  for (const std::vector<std::string>& config :
+       {std::vector<std::string>{"--config", shop}, std::vector<std::string>{"--config=" + shop}}) {
+    const Finished run = Mill(config);
+    ASSERT_EQ(run.status, 0) << run.err;
+    EXPECT_EQ(Slurp(out_ / "part.ngc"), program);
+  }
+  // The command line goes before the file.
+  ASSERT_EQ(Mill({"--config", shop, "--spindle", "9000"}).status, 0);
+  EXPECT_THAT(Slurp(out_ / "part.ngc"), HasSubstr("S9000"));
+}
+
+TEST_F(CliDefaults, FaultsOfTheFileAreNamed) {
+  const auto error = [&](const std::string& text) {
+    const Finished run = Mill({"--config", in_.Write("bad.ini", text)});
+    EXPECT_EQ(run.status, 2) << text;
+    return run.err;
+  };
+  EXPECT_THAT(error("scalop = 0.1\n"), HasSubstr("scalop is no option; did you mean scallop?"));
+  EXPECT_THAT(error("[mil]\nscallop = 0.1\n"), HasSubstr("sections are named as commands"));
+  EXPECT_THAT(error("[mill]\nkind = contour\n"), HasSubstr("mill.kind is no option"));
+  EXPECT_THAT(error("high-rapids = perhaps\n"), HasSubstr("high-rapids = perhaps; must be true or false"));
+  EXPECT_THAT(error("scallop = much\n"), HasSubstr("\"much\" is not a finite number"));
+  EXPECT_EQ(Mill({"--config", in_ / "missing.ini"}).status, 2);
+  EXPECT_EQ(Mill({"--config"}).status, 2);
+}
+
+TEST_F(CliDefaults, OneCommandLineServesSeveralCommands) {
+  const std::vector<std::string> options = {"--scallop", "0.1", "--tolerance",   "0.03",   "--floor", "-8",
+                                            "--feed",    "900", "--high-rapids", "--bend", "10"};
+  std::vector<std::string> regions = {"regions", model_};
+  regions.insert(regions.end(), options.begin(), options.end());
+  const Finished run = Patchmill(regions);
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_THAT(run.err, HasSubstr("patchmill regions: without effect: --bend --feed --high-rapids"));
+  std::vector<std::string> reach = {"reach",           model_, "--flute-length",   "20",
+                                    "--tool-diameter", "6",    "--tool-diameters", "2,6"};
+  reach.insert(reach.end(), options.begin(), options.end());
+  const Finished table = Patchmill(reach);
+  EXPECT_EQ(table.status, 0) << table.err;
+  EXPECT_THAT(table.err, HasSubstr("--flute-length"));
+  EXPECT_THAT(Patchmill({"reach", "--help"}).out, Not(HasSubstr("--flute-length")));
+}
+
+TEST_F(CliDefaults, ResultsGoToTheStandardOutput) {
+  const Finished run =
+      Patchmill({"mill", model_, "-o", "-", "--floor", "-8", "--scallop", "0.1", "--tolerance", "0.03"});
+  ASSERT_EQ(run.status, 0) << run.err;
+  ASSERT_EQ(Mill({"--scallop", "0.1", "--tolerance", "0.03"}).status, 0);
+  EXPECT_EQ(run.out, Slurp(out_ / "part.ngc"));
+  const Finished map = Patchmill({"regions", model_, "-o", "-", "--floor", "-8"});
+  ASSERT_EQ(map.status, 0) << map.err;
+  EXPECT_EQ(map.out.front(), '{');
+  EXPECT_EQ(map.out.substr(map.out.size() - 2), "}\n");
+}
+
+TEST_F(CliDefaults, TheUnitOfAFileWithoutOneIsStated) {
+  const std::string square = in_.Write("square.bv", "5\n1 1\n0 0 0\n0 1 0\n1 0 0\n1 1 0\n");
+  const std::string inches = Patchmill({"check", square, "--length-unit", "inch"}).out;
+  EXPECT_THAT(inches, HasSubstr("X 25.400 Y 25.400"));
+  EXPECT_THAT(inches, Not(HasSubstr("states no unit")));
+  EXPECT_THAT(Patchmill({"check", square}).out, HasSubstr("the file states no unit"));
+  const Finished stated = Patchmill({"check", model_, "--length-unit", "inch"});
+  EXPECT_EQ(stated.status, 2);
+  EXPECT_THAT(stated.err, HasSubstr("--length-unit"));
+}
+
+TEST_F(CliDefaults, AxesAreReadInCapitals) {
+  EXPECT_EQ(Patchmill({"check", model_, "--up", "Z"}).out, Patchmill({"check", model_, "--up", "z"}).out);
+  EXPECT_EQ(Patchmill({"check", model_, "--up", "-X"}).out, Patchmill({"check", model_, "--up", "-x"}).out);
+}
+
+TEST_F(CliDefaults, AMissingUnitAndASlipSayWhatToWrite) {
+  const Finished unit =
+      Patchmill({"check", in_.Write("nounit.json", R"({"patches": [{"id": "a", "bezier": {"degree_u": 1,
+    "degree_v": 1, "points": [0, 0, 0, 0, 9, 0, 9, 0, 0, 9, 9, 0]}}]})")});
+  EXPECT_EQ(unit.status, 2);
+  EXPECT_THAT(unit.err, HasSubstr("nounit.json"));
+  EXPECT_THAT(unit.err, HasSubstr("add \"length_unit\": \"LENGTH_UNIT_MILLIMETER\""));
+  const Finished slip =
+      Patchmill({"check", in_.Write("slip.json", R"({"length_unit": "LENGTH_UNIT_MILLIMETER", "patches":
+    [{"id": "a", "bezier": {"degre_u": 1}}]})")});
+  EXPECT_EQ(slip.status, 2);
+  EXPECT_THAT(slip.err, HasSubstr("slip.json"));
+  EXPECT_THAT(slip.err, HasSubstr("Did you mean degree_u?"));
+}
+
+TEST(CliPages, CompleteCommandsOptionsAndValues) {
+  TempDir dir;
+  const std::string script = dir.Write("completion.bash", Patchmill({"completion", "bash"}).out);
+  const auto complete = [&](const std::string& line) {
+    const std::string code = "source " + script + "; COMP_WORDS=(" + line +
+                             "); COMP_CWORD=$((${#COMP_WORDS[@]} - 1)); _patchmill; echo \"${COMPREPLY[@]}\"";
+    const Finished run = patchmill::testing::Run({"/bin/bash", "-c", code});
+    EXPECT_EQ(run.status, 0) << run.err;
+    return run.out;
+  };
+  EXPECT_EQ(complete("patchmill mi"), "mill\n");
+  EXPECT_EQ(complete("patchmill mill --scal"), "--scallop --scale\n");
+  EXPECT_EQ(complete("patchmill mill --coolant f"), "flood\n");
+  EXPECT_EQ(complete("patchmill mill " + dir / "compl"), dir / "completion.bash" + "\n");
+  for (const std::string& command : kCommands)
+    EXPECT_THAT(complete("patchmill " + command.substr(0, command.size() - 1)), HasSubstr(command));
+}
+
+TEST(CliPages, TheManualHasAllCommandsAndOptions) {
+  const Finished man = Patchmill({"man"});
+  ASSERT_EQ(man.status, 0);
+  EXPECT_EQ(man.out.substr(0, 4), ".TH ");
+  for (const std::string& command : kCommands) {
+    EXPECT_THAT(man.out, HasSubstr("\n.SS " + command + "\n"));
+    const std::string help = Patchmill({command, "--help"}).out;
+    const std::regex option("\n  (-[a-z],)?--([a-z0-9-]+)");
+    for (std::sregex_iterator it(help.begin(), help.end(), option), end; it != end; ++it) {
+      EXPECT_THAT(man.out, HasSubstr("\\-\\-" + std::regex_replace((*it)[2].str(), std::regex("-"), "\\-")))
+          << command;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace patchmill
