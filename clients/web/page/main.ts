@@ -13,8 +13,12 @@ import { type Finished, ProgressView, ResultPanel, showProblem } from "./job_pan
 import { clearPart, showPart, showUpHint, upNotes } from "./part_panel";
 import { PickLists } from "./pick_lists";
 import { type Problem, problemOf } from "./problems";
-import { endingOf, knownEndings, makeCheck, makeProgram, makeSplit, type ModelFile } from "./request";
-import { colorOf, type PackedScene, packScene, regionName } from "./scene";
+import { makeMachinePanel } from "./machine_panel";
+import { isFile, type OwnPost } from "./own_post";
+import { type DrawRing, PlanEditor, type Point2 } from "./plan";
+import { makePostPanel } from "./post_panel";
+import { endingOf, knownEndings, makeCheck, makeProgram, makeSplit, makeValidation, type ModelFile } from "./request";
+import { colorOf, type PackedScene, packScene, regionName, trianglesOf } from "./scene";
 import { Choice, commandOf, settings } from "./settings";
 import { marksOf, placeText, type Surface, surfacesOf } from "./surfaces";
 import { bytesText, counted, durationText } from "./text";
@@ -25,9 +29,11 @@ const maxFileBytes = 64 * 2 ** 20 - 4096; // a request has 64 MiB, and not all o
 const debounceMs = 350;
 
 const choice = new Choice();
-const placement = ["up", "scale", "zero", "translate", "skip-face"];
+const placement = ["up", "scale", "zero", "translate", "skip-face", "border-tolerance", "wall-side"];
 const checkNames = [...placement, "tool-diameter"];
-const splitNames = settings.filter((s) => s.group !== "program").map((s) => s.name);
+// Regions do not depend on what moves between passes, on the machine, on cutting data, and on the program.
+const motionNames = ["spindle", "feed", "plunge-feed", "coolant", "tool-number", "max-unreached"];
+const splitNames = settings.filter((s) => !["motion", "machine", "program"].includes(s.group) && !motionNames.includes(s.name)).map((s) => s.name);
 const allNames = settings.map((s) => s.name);
 
 let file: ModelFile | null = null;
@@ -37,7 +43,9 @@ let map: PackedScene | null = null;
 let surfaces: Surface[] = [];
 let problem: Problem | null = null;
 let clickMode = "look";
-let keys = { check: "", split: "", job: "" };
+let keys = { check: "", split: "", valid: "", job: "" };
+let ownPost: OwnPost | null = null;
+let postCount = 0; // number of post files that were chosen
 let timer = 0;
 let ticker = 0;
 let isRunning = false;
@@ -47,11 +55,15 @@ let opened = 0; // number of files that were chosen
 
 const checkCall = new LatestCall();
 const splitCall = new LatestCall();
+const validCall = new LatestCall();
 const jobCall = new LatestCall();
 
 const view = new View({ onClick, onFile: (f) => void open(f), onTheme: setDark });
-const form = new Form(choice, changed);
+const plan = new PlanEditor();
+const draw: DrawRing = Object.assign((request: Parameters<DrawRing>[0]) => plan.draw(request), { part: () => plan.part });
+const form = new Form(choice, changed, draw);
 const lists = new PickLists(choice, changed);
+const postPanel = makePostPanel(choice, takePost, (error) => tell(problemOf(error, "Reading the post file")));
 const results = new ResultPanel((isProgram) => showScene(isProgram ? (results.finished?.scene ?? null) : map, isProgram), (e) => tell(problemOf(e, "The download")));
 
 function tell(next: Problem | null): void {
@@ -80,10 +92,13 @@ function refresh(): void {
   showMarks();
   showCommand();
   if (problem !== null) tell(null);
-  results.setStale(keys.job !== choice.keyOf(allNames));
+  results.setStale(keys.job !== jobKey());
   window.clearTimeout(timer);
   timer = window.setTimeout(update, debounceMs);
 }
+
+// Everything that decides the program of a part.
+const jobKey = (): string => `${choice.keyOf(allNames)} ${isFile(choice.get("post")) ? postCount : 0}`;
 
 function showMarks(): void {
   view.mark(marksOf(surfaces, choice), choice.list("only").length === 0);
@@ -92,6 +107,9 @@ function showMarks(): void {
 function showCommand(): void {
   const name = file?.name ?? "part.step";
   byId("command").textContent = commandOf(choice, name, programName(name, choice.get("post")));
+  const files = [choice.list("machine-x").length > 0 ? "the machine, saved as machine.json (Machine, Save as a file)" : "", isFile(choice.get("post")) ? "your post file" : ""].filter(Boolean);
+  const needed = files.length === 0 ? "" : ` The command also reads ${files.join(" and ")}.`;
+  byId("command-note").textContent = `The address of this page holds the same settings, but no files: part and post file stay with you.${needed}`;
 }
 
 function update(): void {
@@ -106,6 +124,29 @@ function update(): void {
     keys.split = splitKey;
     void runSplit(file);
   }
+  if (jobKey() !== keys.valid) {
+    keys.valid = jobKey();
+    void runValidation(file);
+  }
+}
+
+// Shows at once what is wrong with any setting, whether the picture depends on it or not.
+async function runValidation(of: ModelFile): Promise<void> {
+  try {
+    const request = makeValidation(of, choice, ownPost);
+    await validCall.run(async (signal) => {
+      for await (const _ of toolpaths.generateProgram(request, { signal }));
+    });
+  } catch (error) {
+    if (problem === null) tell(problemOf(error, "The job"));
+  }
+}
+
+function takePost(post: OwnPost): void {
+  ownPost = post;
+  postCount++;
+  form.addPost(post.name);
+  changed("post");
 }
 
 // The part
@@ -114,10 +155,12 @@ async function open(chosen: File): Promise<void> {
   const own = ++opened;
   jobCall.cancel();
   checkCall.cancel();
+  validCall.cancel();
   stopSplit();
+  plan.setPart(null);
   file = check = split = map = null;
   surfaces = [];
-  keys = { check: "", split: "", job: "" };
+  keys = { check: "", split: "", valid: "", job: "" };
   view.clear();
   clearPart();
   results.set(null);
@@ -172,6 +215,7 @@ async function runCheck(of: ModelFile): Promise<void> {
     const errors = check.diagnostics.filter((d) => d.severity === Severity.ERROR).length;
     setState("check-state", errors === 0 ? "" : `The part cannot be milled: it has ${counted(errors, "error")}.`, errors > 0);
     showPart(check, showPlace);
+    setPlan();
     form.describeUp(upNotes(check));
     showUpHint(check, choice.get("up"), (up) => {
       choice.set("up", up);
@@ -182,6 +226,20 @@ async function runCheck(of: ModelFile): Promise<void> {
     setState("check-state", "The part was not checked.", true);
     tell(problemOf(error, "Checking the part"));
   }
+}
+
+// The part from above, with what is known of it.
+function setPlan(): void {
+  const { min, max } = check?.box ?? {};
+  if (min === undefined || max === undefined) return plan.setPart(null);
+  const empty = { position: new Float32Array(0), index: new Uint32Array(0) };
+  const { stock, clamps } = (map?.header ?? {}) as { stock?: { outline: Point2[] } | null; clamps?: { outline: Point2[] }[] };
+  plan.setPart({
+    min: [min.xMm, min.yMm, min.zMm],
+    max: [max.xMm, max.yMm, max.zMm],
+    ...(map === null ? empty : trianglesOf(map)),
+    others: [...(stock === undefined || stock === null ? [] : [stock.outline]), ...(clamps ?? []).map((c) => c.outline)],
+  });
 }
 
 function showPlace({ code, message }: Diagnostic): void {
@@ -231,9 +289,10 @@ async function runSplit(of: ModelFile): Promise<void> {
     const regions = answer.regions?.regions ?? [];
     lists.setRegions(regions.filter((r) => r.insidePoint !== undefined).map((r) => ({ id: r.id, place: placeText(r.insidePoint!), name: regionName(r), color: colorOf(r) })));
     setSurfaces();
+    setPlan();
     const seconds = ((performance.now() - start) / 1000).toFixed(1);
     setState("split-state", `${counted(regions.length, "region")}, computed in ${seconds} s`);
-    if (!isRunning && !(results.finished !== null && keys.job === choice.keyOf(allNames))) {
+    if (!isRunning && !(results.finished !== null && keys.job === jobKey())) {
       await showScene(map, false);
     }
   } catch (error) {
@@ -306,8 +365,9 @@ async function start(): Promise<void> {
   setState("job-state", "");
   let progress: ProgressView | null = null;
   try {
-    const request = makeProgram(of, choice);
+    const request = makeProgram(of, choice, ownPost);
     showEmpty("The job runs.", "The program is shown when it is verified.");
+    validCall.cancel();
     stopSplit(); // the job makes its own, and has the processor for itself
     setRunning(true);
     results.set(null);
@@ -327,7 +387,7 @@ async function start(): Promise<void> {
     const finished: Finished = { result, scene, file: of.name, dialect: choice.get("post") };
     // The messages are as large as the scene, and the scene has all of them.
     [result.mesh, result.paths] = [[], []];
-    keys.job = choice.keyOf(allNames);
+    keys.job = jobKey();
     results.set(finished);
     await showScene(scene, result.program !== null);
   } catch (error) {
@@ -397,6 +457,7 @@ async function loadPosts(): Promise<void> {
   try {
     const { posts } = await toolpaths.listPosts({});
     form.setPosts(posts);
+    postPanel.setPosts(posts);
     hasPosts = true;
   } catch (error) {
     tell(problemOf(error, "Asking patchmilld for its dialects"));
@@ -423,6 +484,7 @@ window.addEventListener("hashchange", () => {
   readAddress();
   refresh();
 });
+makeMachinePanel(choice, changed, (error) => tell(problemOf(error, "The machine")));
 makeToolPanel(choice, changed, (error) => tell(problemOf(error, "Reading the tool")));
 followFiles();
 readAddress();

@@ -24,9 +24,9 @@ export function settingOfField(path: string): string | null {
   let name: string | null = null;
   for (const setting of settings) {
     for (const field of setting.fields ?? []) {
-      const end = field.replace(/\[\d+\]/g, "");
-      const isIt = plain === end || plain.endsWith(`.${end}`) || plain.includes(`.${end}.`);
-      if (isIt && end.length > best.length) [best, name] = [end, setting.name];
+      const whole = field.includes("[") ? path : plain;
+      const isIt = whole === field || whole.endsWith(`.${field}`) || whole.includes(`.${field}.`);
+      if (isIt && field.length > best.length) [best, name] = [field, setting.name];
     }
   }
   return name;
@@ -80,6 +80,7 @@ export function problemOf(error: unknown, what: string): Problem {
   if (info?.reason === "INVALID_FIELDS" && items.every((item) => item.setting === null)) {
     return { title: `${what} failed`, items, advice: "Correct the file, or choose another one." };
   }
+  if (info?.reason === "INVALID_FIELDS") return { title: `${what} needs other settings`, items, advice: adviceOfReason.INVALID_FIELDS! };
   if (info?.reason === "NOT_IMPLEMENTED" && items.every((item) => item.field === "")) {
     const isReader = /importer|STEP|IGES/.test(error.rawMessage);
     const reader = "Install the reader of CAD files with scripts/setup.sh cad, build, and start again. Parts as .json or .pb need no reader.";

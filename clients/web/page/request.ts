@@ -2,7 +2,7 @@
 // same settings give the same bytes of a program.
 import { create } from "@bufbuild/protobuf";
 import { type SplitRegionsRequest, SplitRegionsRequestSchema } from "../gen/patchmill/v1/analysis_service_pb.js";
-import { Point3Schema } from "../gen/patchmill/v1/geometry_pb.js";
+import { LengthUnit } from "../gen/patchmill/v1/geometry_pb.js";
 import { type Job, JobSchema, Output, type Post, PostSchema } from "../gen/patchmill/v1/job_pb.js";
 import { type ModelSource, ModelSourceSchema } from "../gen/patchmill/v1/model_pb.js";
 import { type CheckModelRequest, CheckModelRequestSchema } from "../gen/patchmill/v1/model_service_pb.js";
@@ -10,6 +10,8 @@ import {
   BoundaryMode,
   CutDirection,
   EdgeRule,
+  FeedsSchema,
+  LeadsSchema,
   type Operation,
   OperationSchema,
   type RegionOverride,
@@ -18,11 +20,12 @@ import {
   SelectionSchema,
   Strategy,
 } from "../gen/patchmill/v1/operation_pb.js";
-import { type Obstacle, ObstacleSchema, type Setup, SetupSchema, type Stock, StockSchema, UpAxis, ZeroAnchor } from "../gen/patchmill/v1/setup_pb.js";
 import { Coolant, type Tool, ToolSchema } from "../gen/patchmill/v1/tool_pb.js";
 import { type GenerateProgramRequest, GenerateProgramRequestSchema } from "../gen/patchmill/v1/toolpath_service_pb.js";
+import { isFile, type OwnPost, postTextOf } from "./own_post";
 import type { Choice } from "./settings";
-import { flagOf, mustNumber, numberOf, numbersOf, ringOf, SettingError, wireText } from "./values";
+import { makePlacement, makeSetup } from "./setup";
+import { flagOf, mustNumber, numberOf, numbersOf, pointOf, ringOf, SettingError, wireText } from "./values";
 
 export interface ModelFile {
   name: string;
@@ -38,7 +41,9 @@ export const isCad = (name: string): boolean => cadFormats.includes(endingOf(nam
 
 export function makeSource(file: ModelFile, choice: Choice): ModelSource {
   const ending = endingOf(file.name);
-  const skipped = choice.list("skip-face").map((id) => wireText(id, 200));
+  const skipFaces = choice.list("skip-face").map((id) => wireText(id, 200));
+  const borderToleranceMm = numberOf(choice, "border-tolerance");
+  const isDefault = skipFaces.length === 0 && borderToleranceMm === undefined;
   return create(ModelSourceSchema, {
     source: {
       case: "file",
@@ -46,77 +51,10 @@ export function makeSource(file: ModelFile, choice: Choice): ModelSource {
         content: file.bytes,
         // Others are known by their content.
         format: statedFormats.includes(ending) ? ending : "",
-        ...(skipped.length === 0 ? {} : { importOptions: { skipFaces: skipped } }),
+        ...(isDefault ? {} : { importOptions: { skipFaces, ...(borderToleranceMm === undefined ? {} : { borderToleranceMm }) } }),
       },
     },
   });
-}
-
-const axes: Record<string, UpAxis> = { auto: UpAxis.AUTO, z: UpAxis.Z, y: UpAxis.Y, x: UpAxis.X, "-z": UpAxis.NEG_Z, "-y": UpAxis.NEG_Y, "-x": UpAxis.NEG_X };
-const anchors: Record<string, ZeroAnchor> = { origin: ZeroAnchor.ORIGIN, "top-center": ZeroAnchor.TOP_CENTER, "bottom-corner": ZeroAnchor.BOTTOM_CORNER };
-
-const pointOf = ([xMm = 0, yMm = 0, zMm = 0]: number[]) => ({ xMm, yMm, zMm });
-
-function makeZero(text: string): Setup["zero"] {
-  if (text === "") return { case: undefined };
-  const anchor = anchors[text];
-  if (anchor !== undefined) return { case: "zeroAnchor", value: anchor };
-  const point = pointOf(numbersOf(text, [3], "zero", "origin, top-center, bottom-corner or X,Y,Z"));
-  return { case: "programZero", value: create(Point3Schema, point) };
-}
-
-function makeStock(choice: Choice): Stock | undefined {
-  const topZMm = numberOf(choice, "stock-top");
-  const allowanceMm = numberOf(choice, "allowance");
-  const text = choice.get("stock");
-  if (topZMm === undefined && allowanceMm === undefined && text === "") return undefined;
-  const stock = create(StockSchema, { ...(topZMm === undefined ? {} : { topZMm }), ...(allowanceMm === undefined ? {} : { allowanceMm }) });
-  if (text === "") return stock;
-  const [kind, ...rest] = text.split(",");
-  const wanted = "block, block,MARGIN, cylinder,D or cylinder,D,X,Y";
-  const numbers = rest.length === 0 ? [] : numbersOf(rest.join(","), [1, 2, 3], "stock", wanted);
-  if (kind === "block" && numbers.length <= 1) stock.body = { case: "block", value: { $typeName: "patchmill.v1.BlockStock", marginMm: numbers[0] ?? 0 } };
-  else if (kind === "cylinder" && (numbers.length === 1 || numbers.length === 3)) {
-    stock.body = { case: "cylinder", value: { $typeName: "patchmill.v1.CylinderStock", diameterMm: numbers[0]!, centerXyMm: numbers.slice(1) } };
-  } else throw new SettingError("stock", `"${text.slice(0, 60)}" must be ${wanted}.`);
-  return stock;
-}
-
-// "[NAME=]TOP[,MARGIN]: X,Y X,Y X,Y".
-function makeObstacle(text: string): Obstacle {
-  const colon = text.indexOf(":");
-  const wrong = new SettingError("obstacle", `"${text.slice(0, 60)}" must be NAME=TOP,MARGIN: X,Y X,Y X,Y.`);
-  if (colon < 0) throw wrong;
-  const head = text.slice(0, colon);
-  const equals = head.indexOf("=");
-  const [topZMm = 0, marginMm = 0] = numbersOf(head.slice(equals + 1), [1, 2], "obstacle", "NAME=TOP,MARGIN: X,Y X,Y X,Y");
-  return create(ObstacleSchema, {
-    id: equals < 0 ? "" : wireText(head.slice(0, equals), 200),
-    topZMm,
-    marginMm,
-    outlineXyMm: ringOf(text.slice(colon + 1), "obstacle"),
-  });
-}
-
-// How the model lies.
-function makePlacement(choice: Choice): Setup {
-  const up = choice.get("up");
-  const axis = axes[up];
-  const translate = choice.get("translate");
-  return create(SetupSchema, {
-    ...(axis === undefined ? { upFace: wireText(up, 200) } : { up: axis }),
-    scale: mustNumber(choice, "scale"),
-    ...(translate === "" ? {} : { translation: pointOf(numbersOf(translate, [3], "translate", "X,Y,Z")) }),
-    zero: makeZero(choice.get("zero")),
-  });
-}
-
-function makeSetup(choice: Choice): Setup {
-  const setup = makePlacement(choice);
-  const stock = makeStock(choice);
-  if (stock !== undefined) setup.stock = stock;
-  setup.obstacles = choice.list("obstacle").map(makeObstacle);
-  return setup;
 }
 
 function makeHolder(text: string): { lengthMm: number; lowerDiameterMm: number; upperDiameterMm: number }[] {
@@ -156,12 +94,8 @@ function makeTool(choice: Choice): Tool {
     cuttingDataIsDefault: spindle === undefined || feed === undefined || plunge === undefined,
     holder: makeHolder(choice.get("holder")),
   });
-  const optional = { fluteLengthMm: "flute-length", shankDiameterMm: "shank-diameter", stickoutMm: "stickout", holderClearanceMm: "holder-clearance" } as const;
-  for (const [field, name] of Object.entries(optional) as [keyof typeof optional, string][]) {
-    const value = numberOf(choice, name);
-    if (value !== undefined) tool[field] = value;
-  }
-  return tool;
+  const lengths = { fluteLengthMm: "flute-length", shankDiameterMm: "shank-diameter", stickoutMm: "stickout", holderClearanceMm: "holder-clearance" };
+  return Object.assign(tool, stated(choice, lengths));
 }
 
 const strategies: Record<string, Strategy> = { auto: Strategy.AUTO, contour: Strategy.CONTOUR, zigzag: Strategy.ZIGZAG };
@@ -215,9 +149,27 @@ function makeOverride(text: string): RegionOverride {
   return change;
 }
 
+// The fields whose settings are stated: an empty one has no field, so that the server's default counts.
+function stated<K extends string>(choice: Choice, names: Record<K, string>): Partial<Record<K, number>> {
+  const fields: Partial<Record<K, number>> = {};
+  for (const [field, name] of Object.entries(names) as [K, string][]) {
+    const value = numberOf(choice, name);
+    if (value !== undefined) fields[field] = value;
+  }
+  return fields;
+}
+
+// How the tool comes onto passes, leaves them, and gets to the next one.
+function makeMotion(choice: Choice): Pick<Operation, "leads" | "feeds"> {
+  const leads = stated(choice, { radiusMm: "lead-radius", sweepDeg: "lead-sweep" });
+  const feeds = stated(choice, { plungeAngleDeg: "plunge-angle", linkMmPerMin: "link-feed", leadMmPerMin: "lead-feed" });
+  return {
+    leads: create(LeadsSchema, leads),
+    feeds: create(FeedsSchema, { ...feeds, keepOnPasses: flagOf(choice, "keep-feed") }),
+  };
+}
+
 function makeOperation(choice: Choice): Operation {
-  const floorZMm = numberOf(choice, "floor");
-  const topZMm = numberOf(choice, "top");
   const unreached = numberOf(choice, "max-unreached");
   if (unreached !== undefined && !(unreached >= 0 && unreached <= 100)) {
     throw new SettingError("max-unreached", `${unreached} must be in [0, 100] percent.`);
@@ -231,20 +183,21 @@ function makeOperation(choice: Choice): Operation {
     steepAngleDeg: mustNumber(choice, "steep-angle"),
     strategy: strategies[choice.get("strategy")] ?? Strategy.AUTO,
     zigzagAngleDeg: mustNumber(choice, "zigzag-angle"),
-    zigzagBendDeg: 20,
+    zigzagBendDeg: mustNumber(choice, "bend"),
     oneWayLines: flagOf(choice, "one-way"),
     contourSpirals: flagOf(choice, "spirals"),
-    borderPasses: true,
-    roundLines: true,
+    borderPasses: !flagOf(choice, "no-border-passes"),
+    roundLines: !flagOf(choice, "no-round-lines"),
     zigzagAngleAuto: flagOf(choice, "auto-angle"),
     edgeRule: edgeRules[choice.get("edges")] ?? EdgeRule.STOP,
     detail: mustNumber(choice, "detail"),
     contourDirection: directions[choice.get("direction")] ?? CutDirection.CLIMB,
     heights: {
       clearanceAboveMm: mustNumber(choice, "clearance"),
-      ...(floorZMm === undefined ? {} : { floorZMm }),
-      ...(topZMm === undefined ? {} : { topZMm }),
+      highRapids: flagOf(choice, "high-rapids"),
+      ...stated(choice, { floorZMm: "floor", topZMm: "top", approachGapMm: "approach-gap" }),
     },
+    ...makeMotion(choice),
     acceptDepthMm: mustNumber(choice, "accept-depth"),
     ...(unreached === undefined ? {} : { maxUnreachedFraction: 0.01 * unreached }),
     ...(selection === undefined ? {} : { selection }),
@@ -252,13 +205,14 @@ function makeOperation(choice: Choice): Operation {
   });
 }
 
-function makePost(choice: Choice): Post {
-  const step = numberOf(choice, "line-numbers");
+function makePost(choice: Choice, own: OwnPost | null): Post {
+  const post = choice.get("post");
   return create(PostSchema, {
-    dialect: wireText(choice.get("post"), 100),
+    ...(isFile(post) ? { postFile: postTextOf(post, own) } : { dialect: wireText(post, 100) }),
     ...(flagOf(choice, "no-arcs") ? { arcs: false } : {}),
+    ...(flagOf(choice, "inch") ? { unit: LengthUnit.INCH } : {}),
     restartPoints: flagOf(choice, "restart-points"),
-    ...(step === undefined ? {} : { lineNumberStep: step }),
+    ...stated(choice, { lineNumberStep: "line-numbers", controlDeviationMm: "control-deviation" }),
     programNumber: mustNumber(choice, "program-number"),
     workOffset: choice.get("work-offset"),
   });
@@ -287,10 +241,15 @@ export function makeSplit(file: ModelFile, choice: Choice): SplitRegionsRequest 
   return create(SplitRegionsRequestSchema, { job: makeJob(file, choice), outputs: [Output.REGIONS, Output.TESSELLATION] });
 }
 
-export function makeProgram(file: ModelFile, choice: Choice): GenerateProgramRequest {
+// Everything of a job is checked, and nothing is planned.
+export function makeValidation(file: ModelFile, choice: Choice, own: OwnPost | null): GenerateProgramRequest {
+  return create(GenerateProgramRequestSchema, { job: makeJob(file, choice), post: makePost(choice, own), validateOnly: true });
+}
+
+export function makeProgram(file: ModelFile, choice: Choice, own: OwnPost | null): GenerateProgramRequest {
   return create(GenerateProgramRequestSchema, {
     job: makeJob(file, choice),
-    post: makePost(choice),
+    post: makePost(choice, own),
     outputs: [Output.PROGRESS, Output.PROGRAM, Output.REPORT, Output.PICTURE, Output.REGIONS, Output.PATH_BLOCKS, Output.TESSELLATION],
   });
 }

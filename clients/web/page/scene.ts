@@ -298,6 +298,13 @@ function findingItem({ severity, code, message, where }: Diagnostic): unknown {
   return { severity: severityName(severity), code, message, point: p === undefined ? null : [p.xMm, p.yMm, p.zMm] };
 }
 
+// The triangles of a scene: corners, and three of them for each.
+export function trianglesOf({ header, block }: PackedScene): { position: Float32Array; index: Uint32Array } {
+  const table = header.buffers as SceneBuffers["table"];
+  const [position, index] = [table["mesh.position"]!, table["mesh.index"]!];
+  return { position: new Float32Array(block, position.offset, position.count), index: new Uint32Array(block, index.offset, index.count) };
+}
+
 export function packScene(source: SceneSource): PackedScene {
   const buffers = new SceneBuffers();
   const { surfaces, box } = addMesh(source.mesh, buffers);

@@ -43,6 +43,8 @@ export function numbersOf(text: string, counts: readonly number[], name: string,
   return numbers as number[];
 }
 
+export const pointOf = ([xMm = 0, yMm = 0, zMm = 0]: readonly number[]): { xMm: number; yMm: number; zMm: number } => ({ xMm, yMm, zMm });
+
 // "X,Y X,Y X,Y" as x y x y x y.
 export function ringOf(text: string, name: string): number[] {
   const points = text.trim().split(/\s+/).filter((p) => p !== "");

@@ -10,7 +10,7 @@ import { after, before, test } from "node:test";
 import { connectNodeAdapter } from "@connectrpc/connect-node";
 import { ToolpathService } from "../gen/patchmill/v1/toolpath_service_pb.js";
 import {
-  bin, cadPart, choosePart, clickPoint, downloaded, example, freePort, inFrame, needBuild, openPage, regionsShown, startBackend, startBrowser, startWeb, withFolder,
+  bin, cadPart, choosePart, clickPoint, downloaded, example, freePort, inFrame, needBuild, openPage, regionsShown, root, startBackend, startBrowser, startWeb, withFolder,
 } from "./support.mjs";
 
 let backend;
@@ -237,6 +237,133 @@ test("tools of files fill the settings", async () => {
   await close();
 });
 
+test("the stock is drawn in plan, with the pointer and with keys", async () => {
+  const { page, faults, close } = await openPage(browser, `${web.url}#scallop=0.3&tolerance=0.1&allowance=0.3&accept-depth=40`);
+  await page.setInputFiles("#file", asFile("dome.json", dome()));
+  await regionsShown(page);
+  await openGroups(page);
+  await page.selectOption("#set-stock", "outline");
+  assert.equal(hashOf(page).get("stock"), "outline: -5,-5 65,-5 65,65 -5,65", "around the part");
+  await page.fill("#stock-points", "0,0\n70, 0\n70,70");
+  assert.equal(hashOf(page).get("stock"), "outline: 0,0 70,0 70,70");
+  await page.click("#stock-draw");
+  assert.equal(await page.locator("#plan-ring circle").count(), 3);
+  // The last point goes two steps left and ten down; a new one between it and the first goes up.
+  await page.locator("#plan-ring circle").nth(2).focus();
+  for (const key of ["ArrowLeft", "ArrowLeft", "Shift+ArrowDown"]) await page.keyboard.press(key);
+  await page.click("#plan-add");
+  for (let k = 0; k < 3; k++) await page.keyboard.press("ArrowUp");
+  await page.click("#plan-use");
+  assert.equal(hashOf(page).get("stock"), "outline: 0,0 70,0 68,60 34,33");
+  await page.click("#stock-draw");
+  // A click in the middle of a side adds a point to this side, and it can be dragged on.
+  const [a, b] = await Promise.all([0, 1].map((k) => page.locator("#plan-ring circle").nth(k).boundingBox()));
+  const [x, y] = [(a.x + b.x) / 2 + 7, (a.y + b.y) / 2 + 7];
+  await page.mouse.move(x, y);
+  await page.mouse.down();
+  await page.mouse.move(x, y + 40);
+  await page.mouse.up();
+  await page.click("#plan-use");
+  const points = hashOf(page).get("stock").replace("outline: ", "").split(" ").map((p) => p.split(",").map(Number));
+  assert.equal(points.length, 5);
+  assert.equal(points[1][0], 35);
+  assert.ok(points[1][1] < -2, `${points[1]}`);
+  assert.ok(points.flat().every(Number.isInteger), "points lie on the steps");
+  // Cancel leaves it as it was; the rectangle around the part has the margin that is asked for.
+  const before = hashOf(page).get("stock");
+  await page.click("#stock-draw");
+  await page.click("#plan-clear");
+  assert.equal(await page.isDisabled("#plan-use"), true);
+  await page.keyboard.press("Escape");
+  assert.equal(hashOf(page).get("stock"), before);
+  await page.click("#stock-draw");
+  await page.fill("#plan-margin", "7.5");
+  await page.click("#plan-around");
+  await page.click("#plan-use");
+  assert.equal(hashOf(page).get("stock"), "outline: -7.5,-7.5 67.5,-7.5 67.5,67.5 -7.5,67.5");
+  await page.waitForTimeout(500);
+  await regionsShown(page);
+  await page.waitForFunction(() => document.querySelector("#frames iframe:not(.next)")?.contentWindow.patchmillFrame.state().layers.some((l) => l.id === "stock"));
+  // A clamp is drawn in the same way.
+  const clamps = page.locator("#set-obstacle").locator("..").locator("..").locator("button");
+  await clamps.click();
+  await page.click("#plan-around");
+  await page.click("#plan-use");
+  assert.match(hashOf(page).get("obstacle"), /^clamp 1=[\d.]+,2: -7.5,-7.5 67.5,/);
+  assert.deepEqual(faults, []);
+  await close();
+});
+
+test("machine and post file come from files, go into the program, and are named when they are wrong", { timeout: 60_000 }, async () => {
+  const { page, faults, close } = await openPage(browser, `${web.url}#scallop=0.3&tolerance=0.1&allowance=0.3&lead-radius=0.8&lead-feed=333`);
+  await page.setInputFiles("#file", asFile("dome.json", dome()));
+  await regionsShown(page);
+  await openGroups(page);
+  await page.setInputFiles("#machine-file", join(root, "docs/machine.json"));
+  await page.waitForFunction(() => location.hash.includes("machine-x"));
+  assert.equal(hashOf(page).get("machine-x"), "-400,0,10000,5000,500");
+  assert.equal(await page.inputValue("#set-machine-z-4"), "300");
+  assert.equal(await text(page, "sum-machine"), "bench mill");
+  // A wrong value of an axis is shown at its cell, with the server's path of it.
+  await page.fill("#set-machine-y-3", "0");
+  await problem(page);
+  assert.match(await text(page, "wrong-machine-y"), /= 0; must .*job\.setup\.machine\.axes\[1\]\.feed_mm_per_min/);
+  assert.equal(await page.getAttribute("#set-machine-y-3", "aria-invalid"), "true");
+  assert.equal(await page.getAttribute("#set-machine-y-2", "aria-invalid"), null);
+  await page.fill("#set-machine-y-3", "");
+  await page.waitForFunction(() => /Fill in fastest feed/.test(document.getElementById("wrong-machine-y").textContent));
+  await page.fill("#set-machine-y-3", "4000");
+  await page.waitForSelector("#problem", { state: "hidden" });
+  // So are those of feeds and leads, which no picture depends on.
+  await page.fill("#set-lead-sweep", "5");
+  await problem(page);
+  assert.match(await text(page, "wrong-lead-sweep"), /= 5; must .*job\.operations\[0\]\.leads\.sweep_deg/);
+  await page.fill("#set-lead-sweep", "45");
+  await page.waitForSelector("#problem", { state: "hidden" });
+
+  // The post file: what is wrong in it, then a whole one with a title of its own.
+  await page.setInputFiles("#post-file", asFile("shop.post", "[control]\nname = shop\n"));
+  await problem(page);
+  assert.match(await text(page, "wrong-post"), /missing.*post\.post_file/);
+  await page.selectOption("#set-post", "grbl");
+  const { bytes } = await downloaded(page, "#post-save");
+  const own = bytes.toString().replace(/^name = .*$/m, "name = shop").replace(/^title = .*$/m, "title = Shop 7");
+  await page.setInputFiles("#post-file", asFile("shop.post", own));
+  await page.waitForFunction(() => document.getElementById("problem").hidden);
+  assert.equal(hashOf(page).get("post"), "./shop.post");
+  assert.equal(await page.inputValue("#set-post"), "./shop.post");
+  await page.click("#start");
+  await done(page);
+  assert.match(await text(page, "outcome"), /erified/, await text(page, "problem"));
+  const program = await downloaded(page, "#get-program");
+  assert.equal(program.name, "dome.nc");
+  const report = JSON.parse((await downloaded(page, "#get-report")).bytes);
+  assert.match(report.time_basis, /acceleration/i);
+  assert.ok(program.bytes.includes("F333"), "leads have their feed");
+  const machine = await downloaded(page, "#machine-save");
+  await withFolder(async (folder) => {
+    await writeFile(join(folder, "dome.json"), dome());
+    await writeFile(join(folder, machine.name), machine.bytes);
+    await writeFile(join(folder, "shop.post"), own);
+    await promisify(execFile)("bash", ["-c", await text(page, "command")], { cwd: folder, env: { ...process.env, PATH: `${bin}:${process.env.PATH}` } });
+    assert.ok(program.bytes.equals(await readFile(join(folder, "dome.nc"))), "the program has other bytes than the command line's");
+  });
+  // A file is no part of the address: the page says so when it is gone.
+  await page.reload();
+  await page.setInputFiles("#file", asFile("dome.json", dome()));
+  await problem(page);
+  assert.match(await text(page, "problem"), /does not have the post file "shop.post".*Choose the file again/);
+  await openGroups(page);
+  await page.setInputFiles("#machine-file", asFile("m.json", '{"axes": [], "<b>": 1}'));
+  await page.waitForFunction(() => /no machine in JSON.*<b>/.test(document.getElementById("problem").textContent));
+  await page.setInputFiles("#machine-file", asFile("m.json", '{"axes": [{}]}'));
+  await page.waitForFunction(() => /has 1 axes; it must have 3/.test(document.getElementById("problem").textContent));
+  await page.setInputFiles("#post-file", asFile("big.post", Buffer.alloc(100_001, 65)));
+  await page.waitForFunction(() => /100001 bytes; a post file has at most 100,000/.test(document.getElementById("problem").textContent));
+  assert.deepEqual(faults, []);
+  await close();
+});
+
 test("wrong settings are shown with value, field and a way to them", async () => {
   const { page, faults, close } = await openPage(browser, web.url);
   await page.setInputFiles("#file", asFile("dome.json", dome()));
@@ -388,10 +515,15 @@ test("the address holds the settings, the page is dark and narrow when it should
   assert.deepEqual((await inFrame(page, "state")).layers.filter((l) => l.id === "clamps").length, 1);
   assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), "nothing is cut off at the side");
   await openGroups(page);
-  await page.selectOption("#set-stock", { label: "block,MARGIN or cylinder,D \u2026" });
-  await page.keyboard.type("cylinder,90");
-  assert.equal(hashOf(page).get("stock"), "cylinder,90");
-  await page.selectOption("#set-stock", "block,2");
+  // A new body begins with one that the part fits into: its diagonal is 84.9 mm.
+  await page.selectOption("#set-stock", "cylinder");
+  assert.equal(hashOf(page).get("stock"), "cylinder,85");
+  await page.fill("#stock-diameter", "90");
+  await page.fill("#stock-center", "1,2.5");
+  assert.equal(hashOf(page).get("stock"), "cylinder,90,1,2.5");
+  await page.selectOption("#set-stock", "block");
+  assert.equal(hashOf(page).get("stock"), "block");
+  await page.fill("#stock-margin", "2");
   assert.equal(hashOf(page).get("stock"), "block,2");
   await page.waitForTimeout(500);
   await regionsShown(page);
