@@ -4,3 +4,4 @@ add_test(NAME lint_format COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/lint/format.sh ${C
 add_test(NAME lint_traces COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/lint/traces.sh ${CMAKE_SOURCE_DIR})
 add_test(NAME lint_citations COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/lint/citations.py ${CMAKE_SOURCE_DIR})
 add_test(NAME lint_words COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/lint/words.py ${CMAKE_SOURCE_DIR})
+add_test(NAME lint_colors COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/lint/colors.py ${CMAKE_SOURCE_DIR})
