@@ -8,17 +8,25 @@ import { build, transform } from "esbuild";
 const here = (name) => fileURLToPath(new URL(name, import.meta.url));
 const hash = (text) => `'sha256-${createHash("sha256").update(text, "utf8").digest("base64")}'`;
 
+const common = { bundle: true, write: false, minify: true, format: "iife", target: ["es2022"], charset: "ascii", legalComments: "none", absWorkingDir: here(".") };
+
+// import source from "./name?worker" gives the bundled source of a worker as a text.
+export const workerPlugin = {
+  name: "worker",
+  setup(bundle) {
+    bundle.onResolve({ filter: /\?worker$/ }, ({ path }) => ({ path: here(`src/${path.replace(/^\.\/|\?worker$/g, "")}.ts`), namespace: "worker" }));
+    bundle.onLoad({ filter: /./, namespace: "worker" }, async ({ path }) => {
+      const { outputFiles } = await build({ ...common, entryPoints: [path] });
+      return { contents: outputFiles[0].text, loader: "text" };
+    });
+  },
+};
+
 export async function buildPage() {
   const bundle = await build({
+    ...common,
     entryPoints: [here("src/main.ts")],
-    bundle: true,
-    write: false,
-    minify: true,
-    format: "iife",
-    target: ["es2022"],
-    charset: "ascii",
-    legalComments: "none",
-    absWorkingDir: here("."),
+    plugins: [workerPlugin],
     banner: { js: `/* Patchmill viewer: Apache-2.0. three.js, which it contains:\n\n${await readFile(here("node_modules/three/LICENSE"), "utf8")}*/` },
   });
   // A script element ends at its end tag, wherever that stands.
@@ -29,6 +37,7 @@ export async function buildPage() {
     `script-src ${hash(script)}`,
     `style-src ${hash(style)}`,
     "img-src data:",
+    "worker-src blob:",
     "base-uri 'none'",
     "form-action 'none'",
   ].join("; ");

@@ -4,6 +4,7 @@ import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { fileURLToPath, pathToFileURL } from "node:url";
 import { build } from "esbuild";
+import { workerPlugin } from "../build.mjs";
 
 export async function load(...names) {
   const folder = await mkdtemp(join(tmpdir(), "viewer-test-"));
@@ -14,6 +15,7 @@ export async function load(...names) {
         resolveDir: fileURLToPath(new URL("..", import.meta.url)),
       },
       bundle: true,
+      plugins: [workerPlugin],
       write: false,
       format: "esm",
       target: ["es2022"],

@@ -5,6 +5,7 @@ import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
 import { pathToFileURL } from "node:url";
+import { gzipSync } from "node:zlib";
 import { buildPage } from "../build.mjs";
 import { fillPage, gougeAt, height, hill, leftoverAt, makePage, makeScene, pack, slopeAt } from "../make_scene.mjs";
 import { openBrowser } from "./browser.mjs";
@@ -18,10 +19,10 @@ let page; // the one that most tests share
 let complaints = [];
 
 // Opens a page of pieces and listens to all that it complains about or wants from elsewhere.
-async function open(name, pieces, options = {}) {
+async function open(name, pieces, options = {}, context = browser) {
   const file = join(folder, `${name}.html`);
   await writeFile(file, pieces);
-  const opened = await browser.newPage({ viewport: { width: 1280, height: 720 }, ...options });
+  const opened = await context.newPage({ viewport: { width: 1280, height: 720 }, ...options });
   complaints = [];
   opened.on("console", (m) => complaints.push(`${m.type()}: ${m.text()}`));
   opened.on("pageerror", (e) => complaints.push(`error: ${e.message}`));
@@ -493,6 +494,46 @@ test("damaged scenes give a message, not an empty page", async () => {
   await empty.waitForSelector("#error:visible");
   assert.match(await empty.textContent("#error"), /template/);
   await empty.close();
+});
+
+test("a large scene is unpacked beside the page while the browser reads it", { timeout: 60_000 }, async () => {
+  const large = makeScene({ segments: 260_000, grid: 30 });
+  const pieces = makePage(template, large, { gzip: true });
+  const moves = large.buffers["path.kind"].length;
+  const noWorker = { addInitScript: () => void (window.Worker = undefined) };
+  for (const { addInitScript } of [{ addInitScript: () => {} }, noWorker]) {
+    const context = await browser.newContext();
+    await context.addInitScript(addInitScript);
+    const opened = await open("large", pieces, {}, context);
+    await opened.evaluate(() => window.patchmillView.ready);
+    assert.ok((await colorsShown(opened)) > 4);
+    const { levelSizes } = await state(opened);
+    assert.equal(levelSizes.length, 10);
+    assert.ok(levelSizes[0] >= moves - 1 && levelSizes.every((size, k) => k === 0 || size <= levelSizes[k - 1]), levelSizes.join());
+    assert.ok(levelSizes[9] < levelSizes[0] / 10);
+    // The worker is a text of the page itself; nothing else is asked for.
+    assert.deepEqual(complaints.filter((c) => !c.startsWith("request: blob:null/")), []);
+    assert.equal(complaints.length, addInitScript === noWorker.addInitScript ? 0 : 1);
+    await context.close();
+  }
+  // Damage is found there, too: a file that was cut, a bit that fell over, and data that grow without end.
+  const { header, block } = pack(large);
+  const packed = gzipSync(block);
+  const flipped = Buffer.from(packed);
+  flipped[packed.length >> 1] ^= 4;
+  const withGzip = { ...header, data_encoding: "gzip" };
+  const cut = fillPage(template, withGzip, packed.toString("base64").slice(0, packed.length >> 1)).slice(0, 4);
+  const cases = [
+    [cut, /end early/],
+    [fillPage(template, withGzip, flipped.toString("base64")), /damaged/],
+    [fillPage(template, withGzip, gzipSync(Buffer.alloc(256 * 2 ** 20), { level: 1 }).toString("base64")), /longer than the header states/],
+  ];
+  for (const [damaged, message] of cases) {
+    const opened = await open("damaged", damaged);
+    await opened.waitForSelector("#error:visible");
+    assert.match(await opened.textContent("#error"), message);
+    await opened.close();
+  }
 });
 
 test("a browser without WebGL gets a message", async () => {

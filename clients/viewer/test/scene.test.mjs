@@ -1,14 +1,15 @@
 // Reading of scenes: what is read equals what was written, and each damage has a message.
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { gzipSync } from "node:zlib";
+import { deflateRawSync, gzipSync } from "node:zlib";
 import { makeScene, pack } from "../make_scene.mjs";
-import { load } from "./load.mjs";
+import { load, randomFrom } from "./load.mjs";
 
-const { readScene, readSceneText, decodeBase64, SceneError, ProgramText, firstMoves } = await load(
+const { readScene, readSceneText, decodeBase64, Inflater, SceneError, ProgramText, firstMoves } = await load(
   "read_scene",
   "page_data",
   "base64",
+  "inflate",
   "scene",
   "program_text",
 );
@@ -124,6 +125,56 @@ test("a compressed scene is read, and a compressed one that ends early is refuse
   await assert.rejects(readSceneText(text, data.subarray(0, data.length - 200).toString("base64")), /end early/);
   await assert.rejects(readSceneText("{", ""), /not JSON/);
   await assert.rejects(readSceneText(JSON.stringify({ ...header, data_encoding: "zip" }), ""), /encoding/);
+});
+
+// The block that comes out of texts, where the header states a size.
+async function inflated(texts, isPacked, size) {
+  const inflater = new Inflater(isPacked, size);
+  for (const text of texts) await inflater.push(text);
+  return new Uint8Array(await inflater.end());
+}
+
+test("data that come in pieces are the same as at once, however they are cut", async () => {
+  const random = randomFrom(7);
+  const bytes = Uint8Array.from({ length: 50_001 }, () => 16 * random());
+  for (const pack of [(b) => b, gzipSync, deflateRawSync]) {
+    const isPacked = pack(bytes) !== bytes;
+    // Lines of 76 signs, cut at any place, and pieces without any sign.
+    const text = Buffer.from(pack(bytes)).toString("base64").replace(/(.{76})/g, "$1\r\n");
+    const pieces = ["", "\n"];
+    for (let at = 0; at < text.length; ) {
+      const end = at + 1 + Math.floor(3000 * random() ** 3);
+      pieces.push(text.slice(at, end), "");
+      at = end;
+    }
+    for (const stated of [bytes.length, 1000, 0, 60_000]) assert.deepEqual(await inflated(pieces, isPacked, stated), bytes);
+  }
+});
+
+test("data that are damaged, end early, go on behind their end or grow without end are refused", async () => {
+  const random = randomFrom(3);
+  const bytes = Uint8Array.from({ length: 40_000 }, () => 256 * random());
+  const whole = gzipSync(bytes).toString("base64");
+  const flipped = Buffer.from(gzipSync(bytes));
+  flipped[flipped.length - 6] ^= 1; // in the check sum
+  const cases = [
+    [[], /end early/],
+    [[whole.slice(0, 4001)], /end early/],
+    [[flipped.toString("base64")], /damaged/],
+    [[Buffer.from("no gzip at all, and no deflate").toString("base64")], /damaged/],
+    [["AA==", "AAAA"], /behind its end, at the sign 4/],
+    [[whole.slice(0, 400), `${whole.slice(400, 403)}*`, whole.slice(404)], /the sign 403 is no base64/],
+    // 64 MB out of 64 kB: it is not unpacked further than the header goes.
+    [[gzipSync(Buffer.alloc(64 * 2 ** 20)).toString("base64")], /longer than the header states/],
+  ];
+  for (const [texts, wanted] of cases) {
+    await assert.rejects(inflated(texts, true, bytes.length), (error) => error instanceof SceneError && wanted.test(error.message), String(wanted));
+  }
+  await assert.rejects(inflated([Buffer.alloc(3 * 2 ** 20).toString("base64")], false, 100), /longer than the header states/);
+  // A header that states far more than there is costs nothing but its message.
+  const { header, block } = pack(small);
+  const much = { ...header, buffers: { ...header.buffers, "path.tip": { type: "f32", offset: 0, count: 3 * 2 ** 42 } } };
+  await assert.rejects(readSceneText(JSON.stringify(much), block.toString("base64")), /path\.tip ends at byte 52776558133248/);
 });
 
 test("lines of a program", () => {
