@@ -3,10 +3,10 @@ import { toJsonString } from "@bufbuild/protobuf";
 import { type Report, ReportSchema } from "../gen/patchmill/v1/report_pb.js";
 import type { PackedScene } from "./scene";
 
-const endings: Record<string, string> = { linuxcnc: "ngc", heidenhain: "h", siemens: "mpf" };
+const endings = new Map([["linuxcnc", "ngc"], ["heidenhain", "h"], ["siemens", "mpf"]]);
 
 export const baseName = (file: string): string => file.replace(/\.[^.]*$/, "").replace(/[^\w.()+ -]+/g, "_").slice(0, 80) || "part";
-export const programName = (file: string, dialect: string): string => `${baseName(file)}.${endings[dialect] ?? "nc"}`;
+export const programName = (file: string, dialect: string): string => `${baseName(file)}.${endings.get(dialect) ?? "nc"}`;
 
 export function download(name: string, data: BlobPart, type: string): void {
   const url = URL.createObjectURL(new Blob([data], { type }));

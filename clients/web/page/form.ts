@@ -67,7 +67,7 @@ export class Form {
 
   // What each axis shows, behind its name.
   describeUp(notes: ReadonlyMap<string, string>): void {
-    this.#rename(new Map(upNames.map(([value, text]) => [value, notes.has(value) ? `${text}: ${notes.get(value)}` : text])));
+    this.#rename(new Map(upNames.map(([value, text]) => [value, notes.has(value) ? `${text.replace(" of the model", "")} ${notes.get(value)}` : text])));
   }
 
   // The dialects of the server, in place of the one that all servers have.

@@ -6,6 +6,7 @@ import { baseName, download, pageText, programName, reportText } from "./downloa
 import type { JobResult } from "./job";
 import { findingRow } from "./part_panel";
 import type { Problem } from "./problems";
+import { assumedRows, uncutRows, uncutText } from "./result_notes";
 import { figuresOf, type PackedScene } from "./scene";
 import { settingOf } from "./settings";
 import { counted, durationText, shortName } from "./text";
@@ -119,9 +120,11 @@ export class ResultPanel {
   #finished: Finished | null = null;
   #isProgramShown = false;
   readonly #onError: (error: unknown) => void;
+  readonly #goTo: (setting: string) => void;
 
-  constructor(onShow: (isProgram: boolean) => void, onError: (error: unknown) => void) {
+  constructor(onShow: (isProgram: boolean) => void, onError: (error: unknown) => void, goTo: (setting: string) => void) {
     this.#onError = onError;
+    this.#goTo = goTo;
     byId("show-program").addEventListener("click", () => onShow(!this.#isProgramShown));
     byId("get-program").addEventListener("click", () => this.#get(({ result, file, dialect }) => download(programName(file, dialect), new Uint8Array(result.program!), "text/plain")));
     byId("get-report").addEventListener("click", () => this.#get(({ result, file }) => download(`${baseName(file)}-report.json`, reportText(result.report), "application/json")));
@@ -147,10 +150,17 @@ export class ResultPanel {
     byId("outcome").textContent = outcomeTexts[report.outcome] ?? shortName(Outcome, report.outcome);
     byId("outcome").dataset.tone = toneOf(report.outcome);
     byId("stale").hidden = true;
-    const figures = figuresOf(report);
+    const figures: [string, string][] = figuresOf(report).map(([n, v]) => [n, n === "not reached" ? uncutText(report) : v]);
     const wanted = result.program === null ? ["not reached"] : ["largest gouge", "largest leftover", "not reached", "time", "stick-out at least"];
     byId("figures").replaceChildren(...figures.filter(([n]) => wanted.includes(n)).flatMap(([n, v]) => [make("dt", "", n), make("dd", "", v)]));
     byId("reasons").replaceChildren(...(result.program === null ? reasonsOf(report) : []));
+    const uncut = uncutRows(report, this.#goTo);
+    byId("uncut").replaceChildren(...uncut);
+    byId("uncut-box").hidden = uncut.length === 0;
+    const assumed = result.program === null ? [] : assumedRows(report, this.#goTo);
+    byId("assumed").replaceChildren(...assumed);
+    byId("assumed-title").textContent = `Check before the start: ${counted(assumed.length, "assumption")}`;
+    byId("assumed-box").hidden = assumed.length === 0;
     byId("get-program").hidden = result.program === null;
     byId("get-picture").hidden = result.picture.length === 0;
     byId("get-page").hidden = scene === null;

@@ -10,7 +10,7 @@ import { Form } from "./form";
 import type { Clicked } from "./frame/api";
 import { runJob } from "./job";
 import { type Finished, ProgressView, ResultPanel, showProblem } from "./job_panel";
-import { clearPart, showPart, showUpHint, upNotes } from "./part_panel";
+import { clearPart, showPart, showUpHint, sizeNote, upNotes } from "./part_panel";
 import { PickLists } from "./pick_lists";
 import { type Problem, problemOf } from "./problems";
 import { makeMachinePanel } from "./machine_panel";
@@ -64,7 +64,7 @@ const draw: DrawRing = Object.assign((request: Parameters<DrawRing>[0]) => plan.
 const form = new Form(choice, changed, draw);
 const lists = new PickLists(choice, changed);
 const postPanel = makePostPanel(choice, takePost, (error) => tell(problemOf(error, "Reading the post file")));
-const results = new ResultPanel((isProgram) => showScene(isProgram ? (results.finished?.scene ?? null) : map, isProgram), (e) => tell(problemOf(e, "The download")));
+const results = new ResultPanel((isProgram) => showScene(isProgram ? (results.finished?.scene ?? null) : map, isProgram), (e) => tell(problemOf(e, "The download")), (name) => form.goTo(name));
 
 function tell(next: Problem | null): void {
   problem = next;
@@ -213,7 +213,8 @@ async function runCheck(of: ModelFile): Promise<void> {
     if (answer === null) return;
     check = answer;
     const errors = check.diagnostics.filter((d) => d.severity === Severity.ERROR).length;
-    setState("check-state", errors === 0 ? "" : `The part cannot be milled: it has ${counted(errors, "error")}.`, errors > 0);
+    const note = sizeNote(check, Number(choice.get("tool-diameter") || 6));
+    setState("check-state", errors === 0 ? note : `The part cannot be milled: it has ${counted(errors, "error")}.`, errors > 0);
     showPart(check, showPlace);
     setPlan();
     form.describeUp(upNotes(check));
@@ -473,7 +474,12 @@ byId("reset").addEventListener("click", () => (location.hash = ""));
 for (const button of document.querySelectorAll<HTMLElement>("[data-click]")) button.addEventListener("click", () => setClickMode(button.dataset.click!));
 // Enter ends the input of a value; a job is started by its button alone.
 byId("settings").addEventListener("keydown", (event) => {
-  if (event.key === "Enter" && event.target instanceof HTMLInputElement) event.preventDefault();
+  if (event.key === "Enter" && event.target instanceof HTMLInputElement && event.target.type !== "file") event.preventDefault();
+});
+document.addEventListener("keydown", (event) => {
+  if (event.key !== "Enter" || !(event.ctrlKey || event.metaKey) || document.querySelector("dialog[open]") !== null) return;
+  event.preventDefault();
+  void start();
 });
 byId("settings").addEventListener("submit", (event) => {
   event.preventDefault();

@@ -31,7 +31,7 @@ export function upNotes({ upDirections, bestUp }: CheckModelResponse): Map<strin
   const notes = new Map<string, string>();
   for (const { up, facingAreaMm2, hiddenAreaMm2 } of upDirections) {
     const seen = brief(Math.max(0, facingAreaMm2 - hiddenAreaMm2), 3);
-    notes.set(upNames[up] ?? "", `${seen} mm2 seen${up === bestUp ? ", most" : ""}`);
+    notes.set(upNames[up] ?? "", `shows ${seen} mm2${up === bestUp ? ", most" : ""}`);
   }
   return notes;
 }
@@ -46,6 +46,16 @@ export function showUpHint({ bestUp }: CheckModelResponse, up: string, turn: (up
   const button = box.querySelector("button")!;
   button.textContent = "Turn it up";
   button.onclick = () => turn(best);
+}
+
+// What is odd about part and ball: it is said before a job runs for hours.
+export function sizeNote({ box }: CheckModelResponse, ball: number): string {
+  if (box?.min === undefined || box.max === undefined || !(ball > 0)) return "";
+  const sides = [box.max.xMm - box.min.xMm, box.max.yMm - box.min.yMm, box.max.zMm - box.min.zMm];
+  const longest = Math.max(...sides);
+  if (longest > 100 * ball) return `The part is ${brief(longest, 3)} mm long, and the ball has ${brief(ball)} mm: the job takes long. A larger ball or scallop makes it shorter. Or is the unit of the file another one (Scale)?`;
+  if (longest < ball) return `The part is ${brief(longest, 3)} mm long, and the ball has ${brief(ball)} mm. Is the unit of the file another one (Scale)?`;
+  return "";
 }
 
 // The picture of the faces, until the regions are there.

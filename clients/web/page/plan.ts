@@ -263,7 +263,7 @@ export class PlanEditor {
     const points = pixels.map(([x, y], k) => {
       const [px, py] = this.#ring[k]!;
       const label = `point ${k + 1} at ${text(px)}, ${text(py)}`;
-      const circle = make("circle", { cx: x, cy: y, r: 7, tabindex: 0, role: "button", "aria-label": label, "data-point": k });
+      const circle = make("circle", { cx: x, cy: y, tabindex: 0, role: "button", "aria-label": label, "data-point": k });
       circle.addEventListener("keydown", (event) => this.#key(event, k));
       return circle;
     });

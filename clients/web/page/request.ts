@@ -25,7 +25,7 @@ import { type GenerateProgramRequest, GenerateProgramRequestSchema } from "../ge
 import { isFile, type OwnPost, postTextOf } from "./own_post";
 import type { Choice } from "./settings";
 import { makePlacement, makeSetup } from "./setup";
-import { flagOf, mustNumber, numberOf, numbersOf, pointOf, ringOf, SettingError, wireText } from "./values";
+import { flagOf, mustNumber, numberOf, numbersOf, pointOf, ringOf, SettingError, wireText, wordOf } from "./values";
 
 export interface ModelFile {
   name: string;
@@ -87,7 +87,7 @@ function makeTool(choice: Choice): Tool {
     number: number ?? 1,
     numberIsDefault: number === undefined,
     cutter: { case: "ballEnd", value: { diameterMm } },
-    coolant: coolants[choice.get("coolant")] ?? Coolant.OFF,
+    coolant: wordOf(choice, "coolant", coolants),
     spindleRpm: spindle ?? usual.spindle,
     feedMmPerMin: feed ?? usual.feed,
     plungeFeedMmPerMin: plunge ?? usual.plunge,
@@ -122,7 +122,7 @@ function makeSelection(choice: Choice): Selection | undefined {
       : {
           boundaryXyMm: rings[0]!,
           moreBoundaryRings: rings.slice(1).map((xyMm) => ({ xyMm })),
-          boundaryMode: modes[choice.get("boundary-mode")] ?? BoundaryMode.CENTER,
+          boundaryMode: wordOf(choice, "boundary-mode", modes),
           boundaryOffsetMm: offset,
         }),
   });
@@ -143,7 +143,7 @@ function makeOverride(text: string): RegionOverride {
       else throw wrong;
     } else if (name === "off") change.skip = true;
     else if (name === "oneway" || name === "bothways") change.oneWayLines = name === "oneway";
-    else if (strategies[name] !== undefined) change.strategy = strategies[name]!;
+    else if (Object.hasOwn(strategies, name)) change.strategy = strategies[name]!;
     else throw wrong;
   }
   return change;
@@ -181,7 +181,7 @@ function makeOperation(choice: Choice): Operation {
     toleranceMm: mustNumber(choice, "tolerance"),
     stockToLeaveMm: mustNumber(choice, "leave"),
     steepAngleDeg: mustNumber(choice, "steep-angle"),
-    strategy: strategies[choice.get("strategy")] ?? Strategy.AUTO,
+    strategy: wordOf(choice, "strategy", strategies),
     zigzagAngleDeg: mustNumber(choice, "zigzag-angle"),
     zigzagBendDeg: mustNumber(choice, "bend"),
     oneWayLines: flagOf(choice, "one-way"),
@@ -189,9 +189,9 @@ function makeOperation(choice: Choice): Operation {
     borderPasses: !flagOf(choice, "no-border-passes"),
     roundLines: !flagOf(choice, "no-round-lines"),
     zigzagAngleAuto: flagOf(choice, "auto-angle"),
-    edgeRule: edgeRules[choice.get("edges")] ?? EdgeRule.STOP,
+    edgeRule: wordOf(choice, "edges", edgeRules),
     detail: mustNumber(choice, "detail"),
-    contourDirection: directions[choice.get("direction")] ?? CutDirection.CLIMB,
+    contourDirection: wordOf(choice, "direction", directions),
     heights: {
       clearanceAboveMm: mustNumber(choice, "clearance"),
       highRapids: flagOf(choice, "high-rapids"),

@@ -138,7 +138,8 @@ export class Choice {
 
   set(name: string, ...values: string[]): void {
     const setting = settingOf(name);
-    const kept = values.map((v) => v.trim()).filter((v) => v !== "");
+    const isOff = (v: string): boolean => v === "" || (setting.kind === "flag" && ["0", "false", "off", "no"].includes(v));
+    const kept = values.map((v) => v.trim()).filter((v) => !isOff(v));
     if (kept.length === 0 || (!isList(setting) && kept[0] === setting.default)) this.#values.delete(name);
     else this.#values.set(name, isList(setting) ? [...new Set(kept)] : [kept[0]!]);
   }

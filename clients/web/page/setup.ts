@@ -20,12 +20,12 @@ import { makeMachine } from "./machine";
 import type { Choice } from "./settings";
 import { mustNumber, numberOf, numbersOf, pointOf, ringOf, SettingError, wireText } from "./values";
 
-const axes: Record<string, UpAxis> = { auto: UpAxis.AUTO, z: UpAxis.Z, y: UpAxis.Y, x: UpAxis.X, "-z": UpAxis.NEG_Z, "-y": UpAxis.NEG_Y, "-x": UpAxis.NEG_X };
-const anchors: Record<string, ZeroAnchor> = { origin: ZeroAnchor.ORIGIN, "top-center": ZeroAnchor.TOP_CENTER, "bottom-corner": ZeroAnchor.BOTTOM_CORNER };
+const axes = new Map<string, UpAxis>(Object.entries({ auto: UpAxis.AUTO, z: UpAxis.Z, y: UpAxis.Y, x: UpAxis.X, "-z": UpAxis.NEG_Z, "-y": UpAxis.NEG_Y, "-x": UpAxis.NEG_X }));
+const anchors = new Map<string, ZeroAnchor>(Object.entries({ origin: ZeroAnchor.ORIGIN, "top-center": ZeroAnchor.TOP_CENTER, "bottom-corner": ZeroAnchor.BOTTOM_CORNER }));
 
 function makeZero(text: string): Setup["zero"] {
   if (text === "") return { case: undefined };
-  const anchor = anchors[text];
+  const anchor = anchors.get(text);
   if (anchor !== undefined) return { case: "zeroAnchor", value: anchor };
   const point = pointOf(numbersOf(text, [3], "zero", "origin, top-center, bottom-corner or X,Y,Z"));
   return { case: "programZero", value: create(Point3Schema, point) };
@@ -84,7 +84,7 @@ function makeWallSide(text: string): WallSide {
 // How the model lies.
 export function makePlacement(choice: Choice): Setup {
   const up = choice.get("up");
-  const axis = axes[up];
+  const axis = axes.get(up);
   const translate = choice.get("translate");
   return create(SetupSchema, {
     ...(axis === undefined ? { upFace: wireText(up, 200) } : { up: axis }),

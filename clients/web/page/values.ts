@@ -34,6 +34,14 @@ export function mustNumber(choice: Choice, name: string): number {
   return numberOf(choice, name) ?? Number(settingOf(name).default);
 }
 
+// What a word stands for. Words that the table does not have are an error, also those that every object has.
+export function wordOf<T>(choice: Choice, name: string, table: Readonly<Record<string, T>>): T {
+  const word = choice.get(name);
+  const meaning = Object.hasOwn(table, word) ? table[word] : undefined;
+  if (meaning === undefined) throw new SettingError(name, `"${word.slice(0, 40)}" must be one of ${Object.keys(table).join(", ")}.`);
+  return meaning;
+}
+
 export const flagOf = (choice: Choice, name: string): boolean => choice.isSet(name);
 
 // Numbers apart by commas.

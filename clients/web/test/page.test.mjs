@@ -1,5 +1,6 @@
 // The page in a browser: from a part to a verified program, as a user goes.
 import assert from "node:assert/strict";
+import { createHash } from "node:crypto";
 import { createServer as createHttp } from "node:http";
 import { createServer } from "node:http2";
 import { copyFile, readFile, writeFile } from "node:fs/promises";
@@ -8,6 +9,7 @@ import { promisify } from "node:util";
 import { execFile } from "node:child_process";
 import { after, before, test } from "node:test";
 import { connectNodeAdapter } from "@connectrpc/connect-node";
+import { Outcome } from "../gen/patchmill/v1/report_pb.js";
 import { ToolpathService } from "../gen/patchmill/v1/toolpath_service_pb.js";
 import {
   bin, cadPart, choosePart, clickPoint, downloaded, example, freePort, inFrame, needBuild, openPage, regionsShown, root, startBackend, startBrowser, startWeb, withFolder,
@@ -29,10 +31,19 @@ after(async () => {
 });
 
 const text = (page, id) => page.textContent(`#${id}`);
-const hashOf = (page) => new URLSearchParams(new URL(page.url()).hash.slice(1));
+// As the page has it now: the browser tells of a new address a little later.
+const hashOf = async (page) => new URLSearchParams(await page.evaluate(() => location.hash.slice(1)));
 const done = (page) => page.waitForSelector("#result:not([hidden]), #problem:not([hidden])", { timeout: 60_000 });
 const openGroups = (page) => page.evaluate(() => document.querySelectorAll("#groups details").forEach((d) => (d.open = true)));
 const problem = (page) => page.waitForSelector("#problem:not([hidden])", { timeout: 20_000 });
+// Presses Tab until an element has the focus.
+async function tabTo(page, selector) {
+  for (let k = 0; k < 25; k++) {
+    await page.keyboard.press("Tab");
+    if (await page.evaluate((s) => document.activeElement.matches(s), selector)) return;
+  }
+  assert.fail(`Tab does not lead to ${selector}`);
+}
 // Small and quick: a flat dome of one patch.
 const dome = (id = "dome") =>
   JSON.stringify({
@@ -62,16 +73,16 @@ test("a CAD part: findings and size, a click on a face, regions anew, a job, and
   await page.click('[data-click="mill"]');
   await clickPoint(page, [3, 3, 8]);
   await page.waitForFunction(() => location.hash.includes("only="));
-  const [face] = hashOf(page).getAll("only");
+  const [face] = (await hashOf(page)).getAll("only");
   assert.match(await text(page, "command"), new RegExp(`--only=${face}( |$)`));
   const button = page.locator(`#surfaces button[data-is="only"][aria-label="mill ${face}"]`);
   assert.equal(await button.getAttribute("aria-pressed"), "true");
   assert.equal((await inFrame(page, "state")).shading, "marks");
   await button.focus();
   await page.keyboard.press("Space");
-  assert.equal(hashOf(page).get("only"), null);
+  assert.equal((await hashOf(page)).get("only"), null);
   await page.keyboard.press("Space"); // the focus stayed
-  assert.equal(hashOf(page).get("only"), face);
+  assert.equal((await hashOf(page)).get("only"), face);
 
   // The map was made anew: other regions are not selected.
   await page.waitForFunction(() => document.getElementById("split-state").textContent.includes("computed in") === false);
@@ -142,7 +153,7 @@ test("regions are switched off by a click and in the list; a plane face is turne
   await page.click('[data-click="region"]');
   await clickPoint(page, [3, 3, 8]);
   await page.waitForFunction(() => location.hash.includes("region="));
-  const change = hashOf(page).get("region");
+  const change = (await hashOf(page)).get("region");
   assert.match(change, /^-?[\d.]+,-?[\d.]+,-?[\d.]+:off$/);
   await page.waitForFunction(() => [...document.querySelectorAll("#regions select")].some((s) => s.value === "off"));
   await page.waitForTimeout(500);
@@ -150,16 +161,16 @@ test("regions are switched off by a click and in the list; a plane face is turne
   const row = page.locator("#regions li", { has: page.locator("select") }).filter({ hasText: "neutral, gentle" }).first();
   assert.equal(await row.locator("select").inputValue(), "off", "the region is still the one that was clicked");
   await row.locator("select").selectOption("");
-  assert.equal(hashOf(page).get("region"), null);
+  assert.equal((await hashOf(page)).get("region"), null);
 
   // Faces by a text, and the part dropped anew on the picture: the settings stay.
   await page.fill("#by-text", "kind=sphere, f1+");
   await page.click("#text-avoid");
-  assert.deepEqual(hashOf(page).getAll("avoid"), ["kind=sphere", "f1+"]);
+  assert.deepEqual((await hashOf(page)).getAll("avoid"), ["kind=sphere", "f1+"]);
   assert.match(await text(page, "surfaces"), /kind=sphere/);
   await page.click('#surfaces button[aria-label="avoid f1+"]');
   await page.click('#surfaces button[aria-label="avoid kind=sphere"]');
-  assert.equal(hashOf(page).get("avoid"), null);
+  assert.equal((await hashOf(page)).get("avoid"), null);
   const bytes = [...(await readFile(cadPart("dome.step")))];
   await page.evaluate((content) => {
     const { contentWindow, contentDocument } = document.querySelector("#frames iframe:not(.next)");
@@ -175,8 +186,60 @@ test("regions are switched off by a click and in the list; a plane face is turne
   await page.click('[data-click="up"]');
   await clickPoint(page, [15, 0, 4]);
   await page.waitForFunction(() => location.hash.includes("up="));
-  assert.match(hashOf(page).get("up"), /^f\d+$/);
+  assert.match((await hashOf(page)).get("up"), /^f\d+$/);
   await page.waitForFunction(() => document.getElementById("sum-part").textContent.startsWith("30 \u00d7 15 \u00d7 24"), null, { timeout: 20_000 });
+  assert.deepEqual(faults, []);
+  await close();
+});
+
+test("without a mouse: from a part to a program, what it assumes, and the setting that states it", { timeout: 60_000 }, async () => {
+  const { page, faults, close } = await openPage(browser, `${web.url}#scallop=0.2&tolerance=0.1&tool-number=3&zero=origin&tool-diameter=0.5`);
+  const chooser = page.waitForEvent("filechooser");
+  // Tab leads to the chooser of the part, and the focus can be seen there.
+  await tabTo(page, "#file");
+  assert.notEqual(await page.evaluate(() => getComputedStyle(document.querySelector(".file")).outlineStyle), "none");
+  await page.keyboard.press("Enter");
+  await (await chooser).setFiles(asFile("dome.json", dome()));
+  await regionsShown(page);
+  // A part that is large for the ball is noted before a job runs for long.
+  await page.waitForFunction(() => /60 mm long, and the ball has 0.5 mm/.test(document.getElementById("check-state").textContent));
+  await tabTo(page, "details:has(#sum-tool) > summary");
+  await page.keyboard.press("Enter");
+  await tabTo(page, "#set-tool-diameter");
+  await page.keyboard.press("Control+a");
+  await page.keyboard.type("6");
+  await page.waitForFunction(() => document.getElementById("check-state").textContent === "");
+  await page.keyboard.press("Control+Enter");
+  await done(page);
+  assert.match(await text(page, "outcome"), /erified/, await text(page, "problem"));
+  // What nobody stated is listed, and only that.
+  assert.match(await text(page, "assumed-title"), /3 assumptions/);
+  const rows = await page.$$eval("#assumed li", (items) => items.map((i) => i.textContent));
+  for (const [k, wanted] of [/holder/, /material/, /material/].entries()) assert.ok(rows.some((r) => wanted.test(r)), `${k}: ${rows.join(" ")}`);
+  await page.locator("#assumed-box summary").focus();
+  await page.keyboard.press("Enter");
+  await page.locator('#assumed [data-setting="holder"]').focus();
+  await page.keyboard.press("Enter");
+  assert.equal(await page.evaluate(() => document.activeElement.id), "set-holder");
+  assert.equal(await page.isVisible("#help-holder"), true);
+  assert.deepEqual(faults, []);
+  await close();
+});
+
+test("a click is not lost when the help above it goes away", async () => {
+  const { page, faults, close } = await openPage(browser, web.url);
+  await openGroups(page);
+  await page.focus("#set-plunge-angle");
+  assert.equal(await page.isVisible("#help-plunge-angle"), true);
+  // The help of the field takes lines above the check box, which moves when the field loses the focus.
+  const { x, y } = await page.locator("#set-high-rapids").boundingBox();
+  await page.mouse.move(x + 5, y + 5);
+  await page.mouse.down();
+  await page.waitForTimeout(60);
+  await page.mouse.up();
+  assert.equal(await page.isChecked("#set-high-rapids"), true);
+  await page.waitForSelector("#help-plunge-angle", { state: "hidden" });
+  assert.equal(await page.isVisible("#help-high-rapids"), true);
   assert.deepEqual(faults, []);
   await close();
 });
@@ -223,13 +286,13 @@ test("tools of files fill the settings", async () => {
   await page.setInputFiles("#tool-file", asFile("shop.json", JSON.stringify(library)));
   await page.waitForFunction(() => location.hash.includes("tool-diameter"));
   const wanted = { "tool-diameter": "6.35", "flute-length": "19.05", "shank-diameter": "6.35", stickout: "38.1", holder: "25.4,25.4 12.7,25.4,50.8", "tool-number": "7", spindle: "9000", feed: "1016", "plunge-feed": "254" };
-  for (const [name, value] of Object.entries(wanted)) assert.equal(hashOf(page).get(name), value, name);
+  for (const [name, value] of Object.entries(wanted)) assert.equal((await hashOf(page)).get(name), value, name);
   assert.equal(await page.inputValue("#set-holder"), wanted.holder);
   await page.setInputFiles("#tool-file", asFile("shop.tbl", "T1 P1 D4.0 Z+40 ;ball 4\nT2 P2 D8 ;ball 8\n"));
   await page.waitForFunction(() => document.getElementById("tool-list").options.length === 2);
   await page.selectOption("#tool-list", "1");
-  assert.equal(hashOf(page).get("tool-diameter"), "8");
-  assert.equal(hashOf(page).get("holder"), null);
+  assert.equal((await hashOf(page)).get("tool-diameter"), "8");
+  assert.equal((await hashOf(page)).get("holder"), null);
   await page.setInputFiles("#tool-file", asFile("shop.json", '{"data": [{"type": "drill"}]}'));
   await problem(page);
   assert.match(await text(page, "problem"), /no ball end mill/);
@@ -243,9 +306,9 @@ test("the stock is drawn in plan, with the pointer and with keys", async () => {
   await regionsShown(page);
   await openGroups(page);
   await page.selectOption("#set-stock", "outline");
-  assert.equal(hashOf(page).get("stock"), "outline: -5,-5 65,-5 65,65 -5,65", "around the part");
+  assert.equal((await hashOf(page)).get("stock"), "outline: -5,-5 65,-5 65,65 -5,65", "around the part");
   await page.fill("#stock-points", "0,0\n70, 0\n70,70");
-  assert.equal(hashOf(page).get("stock"), "outline: 0,0 70,0 70,70");
+  assert.equal((await hashOf(page)).get("stock"), "outline: 0,0 70,0 70,70");
   await page.click("#stock-draw");
   assert.equal(await page.locator("#plan-ring circle").count(), 3);
   // The last point goes two steps left and ten down; a new one between it and the first goes up.
@@ -254,7 +317,7 @@ test("the stock is drawn in plan, with the pointer and with keys", async () => {
   await page.click("#plan-add");
   for (let k = 0; k < 3; k++) await page.keyboard.press("ArrowUp");
   await page.click("#plan-use");
-  assert.equal(hashOf(page).get("stock"), "outline: 0,0 70,0 68,60 34,33");
+  assert.equal((await hashOf(page)).get("stock"), "outline: 0,0 70,0 68,60 34,33");
   await page.click("#stock-draw");
   // A click in the middle of a side adds a point to this side, and it can be dragged on.
   const [a, b] = await Promise.all([0, 1].map((k) => page.locator("#plan-ring circle").nth(k).boundingBox()));
@@ -264,23 +327,23 @@ test("the stock is drawn in plan, with the pointer and with keys", async () => {
   await page.mouse.move(x, y + 40);
   await page.mouse.up();
   await page.click("#plan-use");
-  const points = hashOf(page).get("stock").replace("outline: ", "").split(" ").map((p) => p.split(",").map(Number));
+  const points = (await hashOf(page)).get("stock").replace("outline: ", "").split(" ").map((p) => p.split(",").map(Number));
   assert.equal(points.length, 5);
   assert.equal(points[1][0], 35);
   assert.ok(points[1][1] < -2, `${points[1]}`);
   assert.ok(points.flat().every(Number.isInteger), "points lie on the steps");
   // Cancel leaves it as it was; the rectangle around the part has the margin that is asked for.
-  const before = hashOf(page).get("stock");
+  const before = (await hashOf(page)).get("stock");
   await page.click("#stock-draw");
   await page.click("#plan-clear");
   assert.equal(await page.isDisabled("#plan-use"), true);
   await page.keyboard.press("Escape");
-  assert.equal(hashOf(page).get("stock"), before);
+  assert.equal((await hashOf(page)).get("stock"), before);
   await page.click("#stock-draw");
   await page.fill("#plan-margin", "7.5");
   await page.click("#plan-around");
   await page.click("#plan-use");
-  assert.equal(hashOf(page).get("stock"), "outline: -7.5,-7.5 67.5,-7.5 67.5,67.5 -7.5,67.5");
+  assert.equal((await hashOf(page)).get("stock"), "outline: -7.5,-7.5 67.5,-7.5 67.5,67.5 -7.5,67.5");
   await page.waitForTimeout(500);
   await regionsShown(page);
   await page.waitForFunction(() => document.querySelector("#frames iframe:not(.next)")?.contentWindow.patchmillFrame.state().layers.some((l) => l.id === "stock"));
@@ -289,7 +352,7 @@ test("the stock is drawn in plan, with the pointer and with keys", async () => {
   await clamps.click();
   await page.click("#plan-around");
   await page.click("#plan-use");
-  assert.match(hashOf(page).get("obstacle"), /^clamp 1=[\d.]+,2: -7.5,-7.5 67.5,/);
+  assert.match((await hashOf(page)).get("obstacle"), /^clamp 1=[\d.]+,2: -7.5,-7.5 67.5,/);
   assert.deepEqual(faults, []);
   await close();
 });
@@ -301,7 +364,7 @@ test("machine and post file come from files, go into the program, and are named 
   await openGroups(page);
   await page.setInputFiles("#machine-file", join(root, "docs/machine.json"));
   await page.waitForFunction(() => location.hash.includes("machine-x"));
-  assert.equal(hashOf(page).get("machine-x"), "-400,0,10000,5000,500");
+  assert.equal((await hashOf(page)).get("machine-x"), "-400,0,10000,5000,500");
   assert.equal(await page.inputValue("#set-machine-z-4"), "300");
   assert.equal(await text(page, "sum-machine"), "bench mill");
   // A wrong value of an axis is shown at its cell, with the server's path of it.
@@ -330,7 +393,7 @@ test("machine and post file come from files, go into the program, and are named 
   const own = bytes.toString().replace(/^name = .*$/m, "name = shop").replace(/^title = .*$/m, "title = Shop 7");
   await page.setInputFiles("#post-file", asFile("shop.post", own));
   await page.waitForFunction(() => document.getElementById("problem").hidden);
-  assert.equal(hashOf(page).get("post"), "./shop.post");
+  assert.equal((await hashOf(page)).get("post"), "./shop.post");
   assert.equal(await page.inputValue("#set-post"), "./shop.post");
   await page.click("#start");
   await done(page);
@@ -436,31 +499,111 @@ test("damaged and unknown files are errors that say what to do", async () => {
   await close();
 });
 
-test("a stream that ends early is void", async () => {
-  const fake = createServer(
-    connectNodeAdapter({
-      routes: (router) =>
-        router.service(ToolpathService, {
-          async *generateProgram() {
-            yield { event: { case: "accepted", value: {} } };
-            yield { event: { case: "program", value: { data: new TextEncoder().encode("G1 X0\nM30\n") } } };
-          },
-        }),
-    }),
-  );
+// Serves the page in front of a backend of the test. `run` starts a job, which it answers with these events.
+async function withFake(use) {
+  let events = [];
+  const router = (routes) =>
+    routes.service(ToolpathService, {
+      async *generateProgram({ validateOnly }) {
+        yield { event: { case: "accepted", value: {} } };
+        if (!validateOnly) for (const [name, value] of events) yield { event: { case: name, value } };
+      },
+    });
+  const fake = createServer(connectNodeAdapter({ routes: router }));
   const port = await freePort();
   await new Promise((resolve) => fake.listen(port, "127.0.0.1", resolve));
   const own = await startWeb(port);
   const { page, faults, close } = await openPage(browser, own.url);
   await page.setInputFiles("#file", asFile("dome.json", dome()));
-  await page.waitForTimeout(600);
-  await page.click("#start");
-  await page.waitForFunction(() => /ended before its report/.test(document.getElementById("problem").textContent));
-  assert.equal(await page.isVisible("#result"), false);
+  await problem(page); // there is nothing else behind this backend
+  const run = async (next) => {
+    events = next;
+    await page.click("#start");
+    await page.waitForSelector("#start:enabled");
+  };
+  await use(page, run);
   assert.deepEqual(faults, []);
   await close();
   await own.stop();
   fake.close();
+}
+const programBytes = new TextEncoder().encode("G1 X0\nM30\n");
+const sha = createHash("sha256").update(programBytes).digest();
+const verified = { outcome: Outcome.COMPLETE, programSizeBytes: programBytes.length, programSha256: sha, totalAreaMm2: 1 };
+
+test("a stream that ends early is void, and so is a program that is not the verified one", { timeout: 60_000 }, async () => {
+  const program = ["program", { data: programBytes }];
+  const other = ["program", { data: new TextEncoder().encode("G1 X9\nM30\n") }];
+  const cases = [
+    [[program], /ended before its report/],
+    [[other, ["report", verified]], /did not arrive whole/],
+    [[program, program, ["report", verified]], /did not arrive whole/],
+    [[["report", verified]], /did not arrive whole/],
+  ];
+  await withFake(async (page, run) => {
+    for (const [events, wanted] of cases) {
+      await run(events);
+      assert.match(await text(page, "problem"), wanted);
+      assert.equal(await page.isVisible("#result"), false);
+    }
+    // What a verification refused is not handed out, although it came.
+    await run([program, ["report", { ...verified, outcome: Outcome.VERIFICATION_FAILED }]]);
+    assert.match(await text(page, "outcome"), /verification failed: no program/);
+    assert.equal(await page.isVisible("#get-program"), false);
+    await run([program, ["report", verified]]);
+    assert.ok((await downloaded(page, "#get-program")).bytes.equals(Buffer.from(programBytes)));
+  });
+});
+
+test("answers with markup and with damaged triangles leave page and program whole", { timeout: 60_000 }, async () => {
+  const evil = "<img src=x onerror=alert(1)><script>alert(2)</script>";
+  const finding = { severity: 2, code: evil, message: evil, where: { faceId: evil } };
+  const report = { ...verified, diagnostics: [finding], checkBeforeStartCodes: [evil], timeBasis: evil, estimatedTimeS: 9, unreachable: [{ reason: 99, areaMm2: 1 }] };
+  // A corner that is not there, and names that are markup.
+  const mesh = { positionMm: [0, 0, 0, 1, 0, 0, 0, 1, 0], normal: [0, 0, 1, 0, 0, 1, 0, 0, 1], slopeDeg: [0, 0, 0], contourCurvaturePerMm: [0, 0, 0], corners: [0, 1, 7], regionId: [0], patchIndex: [0], patchNames: [evil] };
+  const regions = { regions: [{ id: 0, kind: 1, slope: 1, areaMm2: 1 }] };
+  await withFake(async (page, run) => {
+    await run([["regions", regions], ["mesh", mesh], ["program", { data: programBytes }], ["report", report]]);
+    assert.match(await text(page, "problem"), /3-D view/);
+    assert.match(await text(page, "problem"), /mesh\.index holds 7 at 2/);
+    const saved = await downloaded(page, "#get-program");
+    assert.ok(saved.bytes.equals(Buffer.from(programBytes)));
+    assert.ok((await text(page, "assumed")).includes(evil));
+    assert.equal(await page.evaluate(() => document.querySelectorAll("img:not(#faces-picture), #settings script").length), 0);
+  });
+});
+
+test("an address with anything in it does no harm", async () => {
+  const { page, faults, close } = await openPage(browser, `${web.url}#scallop=0.3&tolerance=0.1`);
+  await page.setInputFiles("#file", asFile("dome.json", dome()));
+  await regionsShown(page);
+  const cases = [
+    ["up=constructor", /up_face.*constructor|constructor/],
+    ["zero=toString", /toString.* must be origin/],
+    ["strategy=__proto__", /__proto__.* must be one of auto, contour, zigzag/],
+    ["coolant=valueOf", /valueOf.* must be one of off, flood/],
+    ["region=1,2,3:constructor", /must be X,Y,Z and then/],
+    ["post=constructor", /post\.dialect/],
+    ["post=..%2F..%2Fetc%2Fpasswd", /does not have the post file/],
+    ["stock=outline:@%2Fetc%2Fpasswd", /must be points X,Y/],
+    ["machine-x=1,2,3", /Fill in fastest feed, acceleration/],
+    [`obstacle=${"a".repeat(300_000)}`, /must be NAME=TOP,MARGIN/],
+    ["__proto__=1&constructor=2&scallop[]=3", /do not exist: __proto__, constructor, scallop\[\]/],
+    ["scallop=%ff%00&tolerance=NaN", /is no number/],
+  ];
+  for (const [hash, wanted] of cases) {
+    await page.evaluate((h) => (location.hash = h), hash.includes("scallop") ? hash : `scallop=0.3&tolerance=0.1&${hash}`);
+    await page.waitForFunction((w) => new RegExp(w).test(document.getElementById("problem").textContent), wanted.source).catch(async () => {
+      assert.match(await text(page, "problem"), wanted, hash.slice(0, 60));
+    });
+  }
+  // Flags that are off are off.
+  await page.evaluate(() => (location.hash = "scallop=0.3&tolerance=0.1&spirals=0&one-way=false&inch=1"));
+  await page.waitForFunction(() => document.getElementById("set-inch").checked);
+  assert.equal(await page.isChecked("#set-spirals"), false);
+  assert.doesNotMatch(await text(page, "command"), /spirals|one-way/);
+  assert.deepEqual(faults, []);
+  await close();
 });
 
 test("a backend or a server that is not there is said on the page", async () => {
@@ -517,14 +660,14 @@ test("the address holds the settings, the page is dark and narrow when it should
   await openGroups(page);
   // A new body begins with one that the part fits into: its diagonal is 84.9 mm.
   await page.selectOption("#set-stock", "cylinder");
-  assert.equal(hashOf(page).get("stock"), "cylinder,85");
+  assert.equal((await hashOf(page)).get("stock"), "cylinder,85");
   await page.fill("#stock-diameter", "90");
   await page.fill("#stock-center", "1,2.5");
-  assert.equal(hashOf(page).get("stock"), "cylinder,90,1,2.5");
+  assert.equal((await hashOf(page)).get("stock"), "cylinder,90,1,2.5");
   await page.selectOption("#set-stock", "block");
-  assert.equal(hashOf(page).get("stock"), "block");
+  assert.equal((await hashOf(page)).get("stock"), "block");
   await page.fill("#stock-margin", "2");
-  assert.equal(hashOf(page).get("stock"), "block,2");
+  assert.equal((await hashOf(page)).get("stock"), "block,2");
   await page.waitForTimeout(500);
   await regionsShown(page);
   await page.waitForFunction(() => document.querySelector("#frames iframe:not(.next)").contentWindow.patchmillFrame.state().layers.some((l) => l.id === "stock"));
