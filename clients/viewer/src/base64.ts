@@ -52,7 +52,8 @@ function decodeByTable(text: string, offset: number): Uint8Array<ArrayBuffer> {
 
 type NativeDecoder = { fromBase64?: (text: string) => Uint8Array<ArrayBuffer> };
 
-// Browsers that have a decoder of their own are three times as fast as the table. `offset`: signs before this text, for messages.
+// Browsers that have a decoder of their own are three times as fast as the table. `offset`: signs before this
+// text, for messages.
 export function decodeBase64(text: string, native = (Uint8Array as NativeDecoder).fromBase64, offset = 0): Uint8Array<ArrayBuffer> {
   if (native === undefined) return decodeByTable(text, offset);
   try {

@@ -1,5 +1,5 @@
-// Takes the base64 text of a scene's data piece by piece, and gives the binary block. Memory is bounded by what the header states,
-// however much the data would become.
+// Takes the base64 text of a scene's data piece by piece, and gives the binary block. Memory is bounded by
+// what the header states, however much the data would become.
 import { decodeBase64 } from "./base64";
 import { SceneError } from "./scene";
 

@@ -1,4 +1,5 @@
-// Unpacks the data beside the page, which goes on reading meanwhile. The texts come in order, and null is their end.
+// Unpacks the data beside the page, which goes on reading meanwhile. The texts come in order, and null is
+// their end.
 import { Inflater } from "./inflate";
 import { SceneError } from "./scene";
 

@@ -1,5 +1,5 @@
-// Takes the scene out of the page: the JSON header and the binary block. The block is unpacked while the browser still reads the
-// page, beside it in a worker if there can be one.
+// Takes the scene out of the page: the JSON header and the binary block. The block is unpacked while the
+// browser still reads the page, beside it in a worker if there can be one.
 import { Inflater } from "./inflate";
 import type { FromWorker, ToWorker } from "./inflate_worker";
 import workerSource from "./inflate_worker?worker";

@@ -1,4 +1,5 @@
-// Controls of single settings: each shows its value, takes a new one, and has a place for what is wrong with it.
+// Controls of single settings: each shows its value, takes a new one, and has a place for what is wrong with
+// it.
 import { make, option } from "../../viewer/src/page_elements";
 import type { ProblemItem } from "./problems";
 import type { Choice, Setting } from "./settings";
@@ -73,7 +74,8 @@ export function makeChoice(setting: Setting, choice: Choice, changed: Changed): 
   const { row, error } = labelled(setting, select, select.id);
   const fill = (): void => {
     const value = choice.get(setting.name);
-    // A value of the address that the list does not have goes to the server, which says what is wrong with it.
+    // A value of the address that the list does not have goes to the server, which says what is wrong with
+    // it.
     if (![...select.options].some((o) => o.value === value)) select.append(option(value, value));
     select.value = value;
   };
@@ -144,8 +146,9 @@ export function makeOpen(setting: Setting, usual: [string, string][], otherText:
   return { setting, row, focus: select, fill, error, rename };
 }
 
-// Shows the help of the setting that has the focus. What lies below moves by it, so it waits until a click has ended: else the
-// button that was pressed would no longer lie under the pointer, and the click would be lost.
+// Shows the help of the setting that has the focus. What lies below moves by it, so it waits until a click
+// has ended: else the button that was pressed would no longer lie under the pointer, and the click would be
+// lost.
 export function followHelp(settings: HTMLElement): void {
   let isPressed = false;
   const show = (): void => {

@@ -1,4 +1,5 @@
-// The machine of a job: a file such as docs/machine.json becomes settings, and settings become the message or a file again.
+// The machine of a job: a file such as docs/machine.json becomes settings, and settings become the message or
+// a file again.
 import { create, fromJson, type JsonValue, toJsonString } from "@bufbuild/protobuf";
 import { Point3Schema } from "../gen/patchmill/v1/geometry_pb.js";
 import { type Machine, type MachineAxis, MachineAxisSchema, MachineSchema } from "../gen/patchmill/v1/setup_pb.js";

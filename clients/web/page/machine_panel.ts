@@ -8,7 +8,8 @@ import { type Choice, machineFile, settingOf } from "./settings";
 
 const maxBytes = 2 ** 20;
 
-// One table for the settings of the three axes: a column for each. A setting has its values with commas between them.
+// One table for the settings of the three axes: a column for each. A setting has its values with commas
+// between them.
 export function makeAxes(choice: Choice, changed: Changed): Control[] {
   const table = make("div", "axes");
   const errors = make("div", "axes-wrong");

@@ -1,5 +1,5 @@
-// Draws an outline over the part as seen from above: points are set, dragged and taken back. What it gives is text for a setting,
-// in the coordinates of the program.
+// Draws an outline over the part as seen from above: points are set, dragged and taken back. What it gives is
+// text for a setting, in the coordinates of the program.
 import { byId } from "../../viewer/src/page_elements";
 import { fixed } from "./text";
 
@@ -36,7 +36,8 @@ export function around({ min, max }: Pick<PlanPart, "min" | "max">, margin: numb
   return [[x0, y0], [x1, y0], [x1, y1], [x0, y1]];
 }
 
-// Where a new point comes in: into the side that it is nearest to, if that is within `reach`; else at the end.
+// Where a new point comes in: into the side that it is nearest to, if that is within `reach`; else at the
+// end.
 export function placeOfPoint(ring: readonly Point2[], [x, y]: Point2, reach: number): number {
   if (ring.length < 3) return ring.length;
   let [best, at] = [reach, ring.length];

@@ -1,4 +1,5 @@
-// Makes the set-up of a job: how the model lies, the stock, the clamps, the machine (clients/cli/job_options.cc, stock_option.cc).
+// Makes the set-up of a job: how the model lies, the stock, the clamps, the machine
+// (clients/cli/job_options.cc, stock_option.cc).
 import { create } from "@bufbuild/protobuf";
 import { Point3Schema } from "../gen/patchmill/v1/geometry_pb.js";
 import {

@@ -115,7 +115,8 @@ test("the page has every option of the command line that is about the job", asyn
   const { stdout } = await patchmill("mill", "--help");
   const options = [...stdout.matchAll(/^ +(?:-\w,)?--([a-z-]+)/gm)].map(([, name]) => name);
   assert.ok(options.length > 60, `${options.length} options`);
-  // Files of the user have a chooser each, pictures are looked at; the others are about the call, or without effect.
+  // Files of the user have a chooser each, pictures are looked at; the others are about the call, or without
+  // effect.
   const others = ["help", "output", "tool", "machine", "regions", "report", "preview", "server", "ca", "cert", "key", "threads", "timeout", "quiet", "low-rapids"];
   const names = new Set([...settings.map((s) => s.name), ...others]);
   assert.deepEqual(options.filter((name) => !names.has(name) && !name.startsWith("picture-")), []);
