@@ -3,8 +3,8 @@
 
 usage: mill.py HOST:PORT MODEL PROGRAM [--up y] [--scale 50] [--scallop 0.02] [--tool-diameter 6]
 
-Needs python3-grpcio, python3-protobuf, protobuf-compiler and protobuf-compiler-grpc (Debian); the stubs are generated
-from the contract at every start, so they can never be out of date.
+Needs python3-grpcio, python3-protobuf, protobuf-compiler and protobuf-compiler-grpc (Debian); the stubs are
+generated from the contract at every start, so they can never be out of date.
 """
 import argparse
 import hashlib

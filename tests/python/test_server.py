@@ -1,0 +1,264 @@
+"""Servers that are busy, drain, are lost or cannot be reached; TLS and tokens; a server of one's own."""
+import os
+import pathlib
+import signal
+import stat
+import subprocess
+import tempfile
+import threading
+import time
+import unittest
+
+import grpc
+import patchmill as pm
+from patchmill import _status
+from patchmill.v1 import status_pb2
+from support import BIN, DOME, HILLS, NO_RETRY, Daemon, daemon, free_port, long_operation, operation
+
+MODEL = pm.Model.from_patches(DOME)
+
+
+class Status:
+    """The status of a call, as gRPC gives it."""
+
+    def __init__(self, code, details, trailers=()):
+        self.code, self.details, self.trailing_metadata = (lambda: code), (lambda: details), (lambda: trailers)
+
+
+class InBackground:
+    """A call on a thread of its own, begun once it reports progress."""
+
+    def __init__(self, client: pm.Client) -> None:
+        self.error: BaseException | None = None
+        self.cancel = pm.Canceller()
+        self._began = threading.Event()
+        self._thread = threading.Thread(target=self._run, args=(client,))
+        self._thread.start()
+        assert self._began.wait(20)
+
+    def _run(self, client: pm.Client) -> None:
+        try:
+            client.mill(HILLS, long_operation(), progress=lambda p: self._began.set(), cancel=self.cancel)
+        except pm.PatchmillError as error:
+            self.error = error
+        finally:
+            self._began.set()
+
+    def ended_by(self) -> BaseException | None:
+        self._thread.join(30)
+        return self.error
+
+
+class Trouble(unittest.TestCase):
+    def test_a_server_that_is_killed_in_a_job_is_lost(self):
+        with daemon() as server, pm.Client(server.address) as client:
+            job = InBackground(client)
+            server.signal(signal.SIGKILL)
+            self.assertIsInstance(job.ended_by(), pm.ServerLostError)
+            self.assertIn("broke while the call ran", str(job.error))
+
+    def test_a_busy_server_is_tried_again(self):
+        with daemon("--max-jobs", "1") as server, pm.Client(server.address, retry=NO_RETRY) as client:
+            job = InBackground(client)
+            with self.assertRaises(pm.ServerBusyError) as caught:
+                client.check(MODEL)
+            self.assertEqual((caught.exception.reason, caught.exception.limit_value), ("TOO_MANY_JOBS", 1.0))
+            with pm.Client(server.address, retry=pm.Retry(attempts=20, first_wait_s=0.1, longest_wait_s=0.3)) as patient:
+                threading.Timer(0.5, job.cancel).start()
+                self.assertTrue(patient.check(MODEL).is_usable)
+            self.assertIsInstance(job.ended_by(), pm.JobCancelledError)
+
+    def test_waiting_ends_with_the_deadline_and_with_a_cancel(self):
+        with daemon("--max-jobs", "1") as server, pm.Client(server.address) as client:
+            job = InBackground(client)
+            retry = pm.Retry(attempts=1000, first_wait_s=0.2, longest_wait_s=0.2)
+            with pm.Client(server.address, retry=retry) as patient:
+                with self.assertRaises(pm.ServerBusyError):
+                    patient.check(MODEL, timeout_s=0.5)
+                cancel = pm.Canceller()
+                threading.Timer(0.3, cancel).start()
+                with self.assertRaises(pm.JobCancelledError):
+                    patient.check(MODEL, cancel=cancel)
+            job.cancel()
+            job.ended_by()
+
+    def test_a_server_that_drains_takes_no_new_call_and_ends_its_job(self):
+        with daemon() as server, pm.Client(server.address, retry=NO_RETRY) as client:
+            job = InBackground(client)
+            server.signal(signal.SIGTERM)
+            # At first the server says DRAINING; soon it no longer listens.
+            with self.assertRaises((pm.ServerDrainingError, pm.ServerUnreachableError)):
+                for _ in range(200):
+                    client.check(MODEL)
+                    time.sleep(0.02)
+            self.assertIsNone(job.error)
+            job.cancel()
+            self.assertIsInstance(job.ended_by(), pm.JobCancelledError)
+
+    def test_nobody_at_the_address(self):
+        with pm.Client(f"127.0.0.1:{free_port()}", retry=NO_RETRY) as client:
+            with self.assertRaisesRegex(pm.ServerUnreachableError, r"No server answers at 127\.0\.0\.1:\d+"):
+                client.posts()
+
+    def test_a_server_that_comes_later_is_found(self):
+        port, started = free_port(), []
+        later = threading.Timer(0.5, lambda: started.append(Daemon(listen=f"127.0.0.1:{port}")))
+        later.start()
+        with pm.Client(f"127.0.0.1:{port}", retry=pm.Retry(attempts=30, first_wait_s=0.2, longest_wait_s=0.5)) as client:
+            self.assertTrue(client.check(MODEL).is_usable)
+        later.join()
+        started[0].close()
+
+    def test_a_stream_without_its_report_is_void(self):
+        from patchmill import milling
+
+        collector = milling._MillCollector("part")
+        with self.assertRaisesRegex(pm.IncompleteAnswerError, "without a report"):
+            collector.finish()
+        answer = milling.toolpath_service_pb2.GenerateProgramResponse
+        for event in (answer(program={"data": b"G21\n"}), answer(report={"program_size_bytes": 4, "program_sha256": bytes(32)})):
+            collector.take(event)
+        with self.assertRaisesRegex(pm.IncompleteAnswerError, "did not arrive whole"):
+            collector.finish()
+
+    def test_reasons_of_the_contract_have_their_class(self):
+        kinds = {"DRAINING": pm.ServerDrainingError, "TOO_MANY_BYTES": pm.ServerBusyError, "MODEL_INVALID": pm.ModelError,
+                 "CURVE_UNREADABLE": pm.UnreadableError, "INTERNAL": pm.InternalServerError, "NEWER": pm.InvalidRequestError}
+        for reason, kind in kinds.items():
+            status = status_pb2.Status()
+            status.details.add().Pack(status_pb2.ErrorInfo(reason=reason))
+            trailers = [("other", "x"), ("grpc-status-details-bin", status.SerializeToString())]
+            error = _status.error_of(Status(grpc.StatusCode.INVALID_ARGUMENT, "why", trailers), "there")
+            self.assertIs(type(error), kind)
+            self.assertEqual((error.reason, str(error)), (reason, "why"))
+
+    def test_a_call_that_the_server_ends_is_not_cancelled_by_us(self):
+        self.assertIsInstance(_status.ended_by_server("there", has_begun=False), pm.TemporaryError)
+        self.assertIsInstance(_status.ended_by_server("there", has_begun=True), pm.ServerLostError)
+
+    def test_an_answer_of_grpc_itself_has_its_class(self):
+        for code, details, kind in ((grpc.StatusCode.RESOURCE_EXHAUSTED, "larger than max", pm.LimitError),
+                                    (grpc.StatusCode.UNAVAILABLE, "failed to connect to all addresses", pm.ServerUnreachableError),
+                                    (grpc.StatusCode.UNAVAILABLE, "Socket closed", pm.ServerLostError),
+                                    (grpc.StatusCode.CANCELLED, "Cancelled", pm.JobCancelledError),
+                                    (grpc.StatusCode.UNKNOWN, "what", pm.CallError)):
+            self.assertIs(type(_status.error_of(Status(code, details), "there")), kind)
+
+
+class OwnServer(unittest.TestCase):
+    def test_it_is_private_and_ends_with_the_client(self):
+        client = pm.Client(threads=1)
+        client.check(MODEL)
+        own = client._target._own.running
+        folder = pathlib.Path(own.folder)
+        self.assertEqual(stat.S_IMODE(folder.stat().st_mode), 0o700)
+        client.close()
+        self.assertEqual(own.process.poll(), 0)
+        self.assertFalse(folder.exists())
+        client.close()
+
+    def test_one_that_is_killed_is_named_and_started_anew(self):
+        with pm.Client() as client:
+            job = InBackground(client)
+            os.kill(client._target._own.running.process.pid, signal.SIGKILL)
+            self.assertIsInstance(job.ended_by(), pm.ServerLostError)
+            self.assertIn("The server that this client started has ended by signal 9", str(job.error))
+            self.assertTrue(client.check(MODEL).is_usable)
+
+    def test_a_program_that_is_not_there(self):
+        with pm.Client(program="/nowhere/patchmilld") as client:
+            with self.assertRaisesRegex(pm.StartError, "/nowhere/patchmilld.*PATCHMILLD"):
+                client.posts()
+
+    def test_a_program_that_does_not_start(self):
+        with pm.Client(program="/bin/false") as client:
+            with self.assertRaisesRegex(pm.StartError, "ended with status 1"):
+                client.posts()
+
+
+class Secured(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.temporary = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(cls.temporary.cleanup)
+        cls.folder = pathlib.Path(cls.temporary.name)
+        for name in ("server", "client"):
+            subprocess.run(["openssl", "req", "-x509", "-newkey", "ec", "-pkeyopt", "ec_paramgen_curve:prime256v1", "-nodes", "-days", "2",
+                            "-subj", f"/CN={name}", "-addext", "subjectAltName=DNS:localhost,IP:127.0.0.1", "-keyout",
+                            cls.folder / f"{name}.key", "-out", cls.folder / f"{name}.pem"], check=True, capture_output=True)
+
+    def file(self, name: str) -> str:
+        return str(self.folder / name)
+
+    def test_tls(self):
+        with daemon("--cert", self.file("server.pem"), "--key", self.file("server.key")) as server:
+            for ca in (self.file("server.pem"), (self.folder / "server.pem").read_bytes()):
+                with pm.Client(server.address, tls=pm.Tls(ca=ca), token="secret") as client:
+                    self.assertTrue(client.check(MODEL).is_usable)
+            for tls in (None, pm.Tls(), pm.Tls(ca=self.file("client.pem"))):
+                with pm.Client(server.address, tls=tls, retry=NO_RETRY) as client:
+                    with self.assertRaises((pm.ServerUnreachableError, pm.ServerLostError)):
+                        client.check(MODEL, timeout_s=10)
+
+    def test_certificates_of_clients(self):
+        with daemon("--cert", self.file("server.pem"), "--key", self.file("server.key"), "--ca", self.file("client.pem")) as server:
+            known = pm.Tls(ca=self.file("server.pem"), cert=self.file("client.pem"), key=self.file("client.key"))
+            with pm.Client(server.address, tls=known) as client:
+                self.assertTrue(client.check(MODEL).is_usable)
+            with pm.Client(server.address, tls=pm.Tls(ca=self.file("server.pem")), retry=NO_RETRY) as client:
+                with self.assertRaises((pm.ServerUnreachableError, pm.ServerLostError)):
+                    client.check(MODEL, timeout_s=10)
+
+    def test_half_a_certificate(self):
+        with pm.Client("localhost:1", tls=pm.Tls(cert=b"x")) as client:
+            with self.assertRaisesRegex(pm.OptionError, "belong together"):
+                client.posts()
+
+    def test_a_token_is_sent_and_never_in_the_clear(self):
+        heard = []
+
+        class Listen(grpc.GenericRpcHandler):
+            def service(self, call):
+                heard.append(dict(call.invocation_metadata).get("authorization"))
+
+        from concurrent import futures
+
+        server = grpc.server(futures.ThreadPoolExecutor(1), handlers=[Listen()])
+        port = server.add_insecure_port("127.0.0.1:0")
+        server.start()
+        tokens = iter(["one", "two"])
+        with pm.Client(f"127.0.0.1:{port}", token=lambda: next(tokens), retry=NO_RETRY) as client:
+            for _ in range(2):
+                with self.assertRaises(pm.NotAvailableError):
+                    client.posts()
+        server.stop(None).wait()
+        self.assertEqual(heard, ["Bearer one", "Bearer two"])
+        with self.assertRaisesRegex(pm.OptionError, "token.*unencrypted"):
+            pm.Client("cam.example:50051", token="secret")
+        for address in ("localhost:1", "127.3.4.5:1", "[::1]:1", "unix:/run/patchmill"):
+            pm.Client(address, token="secret").close()
+
+
+class ReadOnly(unittest.TestCase):
+    def test_several_threads_share_a_client(self):
+        with daemon() as server, pm.Client(server.address) as client:
+            digests = []
+            threads = [threading.Thread(target=lambda: digests.append(client.check(MODEL).model_sha256)) for _ in range(4)]
+            for thread in threads:
+                thread.start()
+            for thread in threads:
+                thread.join()
+            self.assertEqual((len(digests), len(set(digests))), (4, 1))
+
+    def test_the_command_line_and_the_package_share_a_server(self):
+        with daemon() as server, tempfile.TemporaryDirectory() as folder:
+            with pm.Client(server.address) as client:
+                ours = client.mill(HILLS, operation(1.0), outputs=()).program_bytes
+            program = pathlib.Path(folder) / "hills.ngc"
+            subprocess.run([BIN / "patchmill", "mill", HILLS, "-o", program, "--scallop", "1", "--tolerance", "0.05", "--server",
+                            server.address, "--quiet"], check=True, capture_output=True)
+            self.assertEqual(program.read_bytes(), ours)
+
+
+if __name__ == "__main__":
+    unittest.main()
