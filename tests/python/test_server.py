@@ -4,6 +4,7 @@ import pathlib
 import signal
 import stat
 import subprocess
+import sys
 import tempfile
 import threading
 import time
@@ -156,6 +157,17 @@ class OwnServer(unittest.TestCase):
         self.assertEqual(own.process.poll(), 0)
         self.assertFalse(folder.exists())
         client.close()
+
+    def test_it_ends_with_a_process_that_is_killed(self):
+        program = "import patchmill as pm, time\nclient = pm.Client()\nclient.posts()\n" \
+                  "print(client._target._own.running.process.pid, flush=True)\ntime.sleep(60)"
+        with subprocess.Popen([sys.executable, "-c", program], stdout=subprocess.PIPE, text=True) as parent:
+            own = int(parent.stdout.readline())
+            parent.kill()
+        end = time.monotonic() + 15
+        while pathlib.Path(f"/proc/{own}").exists() and "Z" not in pathlib.Path(f"/proc/{own}/stat").read_text().split(")")[-1]:
+            self.assertLess(time.monotonic(), end, "the server outlives its client")
+            time.sleep(0.05)
 
     def test_one_that_is_killed_is_named_and_started_anew(self):
         with pm.Client() as client:

@@ -1,7 +1,6 @@
 """A server that the client starts for itself: patchmilld, on a socket that only this user can reach."""
 from __future__ import annotations
 
-import atexit
 import os
 import pathlib
 import shutil
@@ -31,7 +30,15 @@ def find_program(program: Program | None) -> str:
     return found
 
 
-def _stop(process: subprocess.Popen[bytes], folder: str) -> None:
+def _guard(process: subprocess.Popen[bytes], folder: str) -> subprocess.Popen[bytes]:
+    """A process that ends the server when this one is gone, however it went: its input ends then."""
+    return subprocess.Popen(["/bin/sh", "-c", 'read -r _; kill "$0"; rm -rf "$1"', str(process.pid), folder],
+                            stdin=subprocess.PIPE, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True)
+
+
+def _stop(process: subprocess.Popen[bytes], guard: subprocess.Popen[bytes], folder: str) -> None:
+    guard.kill()
+    guard.communicate()
     if process.poll() is None:
         process.terminate()
         try:
@@ -43,7 +50,7 @@ def _stop(process: subprocess.Popen[bytes], folder: str) -> None:
 
 
 class OwnServer:
-    """A running patchmilld. It ends with close(), or with the interpreter at the latest."""
+    """A running patchmilld. It ends with close(), or with this process at the latest."""
 
     def __init__(self, program: Program | None, threads: int) -> None:
         found = find_program(program)
@@ -56,8 +63,7 @@ class OwnServer:
         with open(self._log, "wb") as log:
             self.process = self._start([found, "--listen", self.address, "--threads", str(threads), "--max-job-seconds", "86400",
                                         "--max-in-flight-mib", "4096"], log)
-        self._end = weakref.finalize(self, _stop, self.process, self.folder)
-        atexit.register(self._end)
+        self._end = weakref.finalize(self, _stop, self.process, _guard(self.process, self.folder), self.folder)
         self._wait()
 
     def _start(self, command: list[str], log: IO[bytes]) -> subprocess.Popen[bytes]:
@@ -92,7 +98,6 @@ class OwnServer:
 
     def close(self) -> None:
         self._end()
-        atexit.unregister(self._end)
 
 
 class LazyServer:

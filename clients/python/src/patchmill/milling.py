@@ -172,7 +172,7 @@ class _VerifyCollector:
 
 def _program_bytes(program: str | bytes | os.PathLike[str] | MillResult) -> bytes:
     if isinstance(program, MillResult):
-        return program.program.encode()
+        return program.must_have_program()
     if isinstance(program, bytes):
         return program
     if isinstance(program, str):

@@ -114,9 +114,10 @@ class MillResult(Judged):
     @property
     def program(self) -> str:
         """The program as text. NoProgramError if there is none."""
-        return self._must_have_program().decode()
+        return self.must_have_program().decode()
 
-    def _must_have_program(self) -> bytes:
+    def must_have_program(self) -> bytes:
+        """The bytes of the program. NoProgramError if there is none."""
         if not self.program_bytes:
             reasons = [f for f in self.findings if f.severity == Severity.ERROR or f.code == self.outcome.name]
             raise NoProgramError(_lines(f"The job has no program: {self.outcome.name}", finding_lines(reasons)))
@@ -124,7 +125,7 @@ class MillResult(Judged):
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Writes the program, byte for byte. NoProgramError if there is none."""
-        write_file(path, self._must_have_program())
+        write_file(path, self.must_have_program())
 
     def _scene(self) -> Scene | None:
         if self.mesh is None:
