@@ -91,8 +91,8 @@ def declaration(owner: str, field: Field, comment: str, is_option: bool) -> str:
 def message_class(message: Message, text: str, of_fields: list[str], is_option: bool) -> str:
     wrong = [f.name for f in message.field if keyword.iskeyword(f.name)]
     assert not wrong, f"{message.name}.{wrong} is a word of Python"
-    lines = ["", "", f'@register("{PACKAGE}{message.name}")', f"@dataclass(kw_only={message.name not in POSITIONAL}, eq=False, repr=False)",
-             f"class {message.name}(Message):"]
+    lines = ["", "", f'@register("{PACKAGE}{message.name}")',
+             f"@dataclass(kw_only={message.name not in POSITIONAL}, eq=False, repr=False, slots=True)", f"class {message.name}(Message):"]
     lines += docstring(text, [(f.name, c) for f, c in zip(message.field, of_fields)])
     lines += [""] + [f"    {declaration(message.name, f, c, is_option)}" for f, c in zip(message.field, of_fields)]
     return "\n".join(lines).rstrip()

@@ -17,6 +17,7 @@ cd "$folder/source"
 
 "$python" -m venv --system-site-packages "$folder/venv"
 "$folder/venv/bin/pip" install --quiet --no-index --disable-pip-version-check "$folder"/dist/patchmill-*.whl
+"$python" -m mypy --strict --python-executable "$folder/venv/bin/python" --cache-dir "$folder/mypy-of-user" "$here/typed_use.py"
 cd "$here"
 tests=("$folder/venv/bin/python" -X dev -W error::ResourceWarning -m unittest --buffer)
 "${tests[@]}" test_asyncio  # alone: a process has clients of one kind

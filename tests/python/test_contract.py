@@ -94,6 +94,12 @@ class Contract(unittest.TestCase):
         post = _message.from_message(pm.Post, job_pb2.Post(unit=77))
         self.assertEqual((post.unit, post.unit.name), (77, "VALUE_77"))
 
+    def test_a_misspelt_option_is_refused(self):
+        with self.assertRaises(TypeError):
+            pm.Operation(scalop_mm=1)
+        with self.assertRaises(AttributeError):
+            pm.Operation().scalop_mm = 1
+
     def test_options_print_what_is_set(self):
         self.assertEqual(repr(pm.Heights(floor_z_mm=-3.0)), "Heights(floor_z_mm=-3.0)")
         self.assertEqual(repr(pm.Selection(boundary_xy_mm=np.zeros((9, 2)), boundary_mode=pm.BoundaryMode.INSIDE)),

@@ -1,4 +1,5 @@
 """Jobs: the bytes of the command line, the arrays of the answer, cancel, deadline, errors."""
+import json
 import pathlib
 import tempfile
 import threading
@@ -18,11 +19,18 @@ class SameBytes(unittest.TestCase):
         theirs = command_line(teapot, "--up", "y", "--scale", 20, "--scallop", 0.5, "--tolerance", 0.1, "--post", "heidenhain")
         self.assertEqual(ours.program_bytes, theirs)
 
-    def test_a_cad_file(self):
+    def test_a_cad_file_and_its_report(self):
         part = ROOT / "tests/models/cad/dome.step"
         ours = CLIENT.mill(part, operation(0.5, 0.05, pm.ball(8, number=7, feed_mm_per_min=900)), outputs=())
-        theirs = command_line(part, "--tool-diameter", 8, "--scallop", 0.5, "--tolerance", 0.05, "--tool-number", 7, "--feed", 900)
+        with tempfile.TemporaryDirectory() as folder:
+            report = pathlib.Path(folder) / "report.json"
+            theirs = command_line(part, "--tool-diameter", 8, "--scallop", 0.5, "--tolerance", 0.05, "--tool-number", 7, "--feed", 900,
+                                  "--report", report)
+            reports = [json.loads(text) for text in (ours.report_json(), report.read_text())]
         self.assertEqual(ours.program_bytes, theirs)
+        for one in reports:
+            del one["stages"]  # times
+        self.assertEqual(reports[0], reports[1])
 
     def test_stock_clamp_holder_boundary_machine_inches(self):
         holder = [pm.HolderSegment(length_mm=20, lower_diameter_mm=28, upper_diameter_mm=28),

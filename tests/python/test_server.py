@@ -35,7 +35,7 @@ class InBackground:
         self._began = threading.Event()
         self._thread = threading.Thread(target=self._run, args=(client,))
         self._thread.start()
-        assert self._began.wait(20)
+        assert self._began.wait(60)
 
     def _run(self, client: pm.Client) -> None:
         try:

@@ -73,6 +73,7 @@ def _brief(value: Any) -> str:
 class Message:
     """A message of the contract as a dataclass. It prints what is set."""
 
+    __slots__ = ()  # a misspelt field is an AttributeError
     __dataclass_fields__: ClassVar[dict[str, Any]]
 
     def __repr__(self) -> str:

@@ -54,10 +54,12 @@ class CallError(PatchmillError):
     reason: the reason of the contract ("INVALID_FIELDS"); empty where gRPC itself answered.
     wrong_fields: the wrong fields, at most 20 of them; wrong_field_count counts all.
     limit, limit_value, actual_value: the limit that was passed, its value, and the value of the request.
+    model_code: of a model that cannot be read, a code where a program may react: ZERO_WEIGHT.
     """
 
     def __init__(self, message: str, code: str = "", reason: str = "", *, wrong_fields: Sequence[WrongField] = (),
-                 wrong_field_count: int = 0, limit: str = "", limit_value: float = 0.0, actual_value: float = 0.0) -> None:
+                 wrong_field_count: int = 0, limit: str = "", limit_value: float = 0.0, actual_value: float = 0.0,
+                 model_code: str = "") -> None:
         super().__init__(message)
         self.code = code
         self.reason = reason
@@ -66,6 +68,7 @@ class CallError(PatchmillError):
         self.limit = limit
         self.limit_value = limit_value
         self.actual_value = actual_value
+        self.model_code = model_code
 
     def __str__(self) -> str:
         lines = [super().__str__()]
