@@ -11,6 +11,7 @@ Needs (Debian): python3-build, python3-setuptools, python3-wheel, python3-protob
 with the tools of clients/viewer (scripts/setup.sh page).
 """
 import argparse
+import os
 import pathlib
 import re
 import shutil
@@ -61,6 +62,8 @@ def build(out: pathlib.Path, folder: pathlib.Path, with_page: bool) -> None:
     make_stubs(package)
     if with_page:
         make_page(package)
+    # The same sources give the same bytes: the wheel states no time of its own.
+    os.environ.setdefault("SOURCE_DATE_EPOCH", "315532800")
     run(sys.executable, "-m", "build", "--no-isolation", "--wheel", "--outdir", out.resolve(), folder)
 
 

@@ -17,9 +17,9 @@ cd "$folder/source"
 
 "$python" -m venv --system-site-packages "$folder/venv"
 "$folder/venv/bin/pip" install --quiet --no-index --disable-pip-version-check "$folder"/dist/patchmill-*.whl
-"$python" -m mypy --strict --python-executable "$folder/venv/bin/python" --cache-dir "$folder/mypy-of-user" "$here/typed_use.py"
+"$python" -m mypy --strict --python-executable "$folder/venv/bin/python" --cache-dir "$folder/mypy" "$here/typed_use.py"
 cd "$here"
 tests=("$folder/venv/bin/python" -X dev -W error::ResourceWarning -m unittest --buffer)
 "${tests[@]}" test_asyncio  # alone: a process has clients of one kind
 for file in test_*.py; do [ "$file" = test_asyncio.py ] || others+=("${file%.py}"); done
-exec "${tests[@]}" "${others[@]}"
+"${tests[@]}" "${others[@]}"
