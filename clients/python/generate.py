@@ -32,10 +32,11 @@ ROW = re.compile(r"\bpacked (x y z|x y|u v|E F G|L M N|in pairs|by three)\b", re
 ROW_SIZE = {"x y z": 3, "x y": 2, "u v": 2, "e f g": 3, "l m n": 3, "in pairs": 2, "by three": 3}
 SCALARS = {
     Field.TYPE_DOUBLE: ("float", "0.0"), Field.TYPE_FLOAT: ("float", "0.0"), Field.TYPE_INT32: ("int", "0"),
-    Field.TYPE_INT64: ("int", "0"), Field.TYPE_BOOL: ("bool", "False"), Field.TYPE_STRING: ("str", '""'),
-    Field.TYPE_BYTES: ("bytes", 'b""'),
+    Field.TYPE_INT64: ("int", "0"), Field.TYPE_UINT32: ("int", "0"), Field.TYPE_UINT64: ("int", "0"),
+    Field.TYPE_BOOL: ("bool", "False"), Field.TYPE_STRING: ("str", '""'), Field.TYPE_BYTES: ("bytes", 'b""'),
 }
-ARRAYS = {Field.TYPE_DOUBLE: "float64", Field.TYPE_FLOAT: "float32", Field.TYPE_INT32: "int32"}
+ARRAYS = {Field.TYPE_DOUBLE: "float64", Field.TYPE_FLOAT: "float32", Field.TYPE_INT32: "int32", Field.TYPE_INT64: "int64",
+          Field.TYPE_UINT32: "uint32", Field.TYPE_UINT64: "uint64"}
 
 Comments = dict[tuple[int, ...], str]
 

@@ -1,11 +1,13 @@
 """The package against the contract: every field of a request can be set, whatever is added to it."""
 import inspect
+import re
 import unittest
 
 import numpy as np
 import patchmill as pm
 from patchmill import _call, _message, analysis, messages, milling, modelling
 from patchmill.v1 import fairing_pb2, job_pb2, operation_pb2, setup_pb2
+from support import ROOT
 
 # Functions for the methods of the contract.
 FUNCTIONS = {
@@ -34,6 +36,9 @@ def messages_below(descriptor, found):
 
 class Contract(unittest.TestCase):
     def test_every_method_has_a_function_of_both_clients(self):
+        files = (ROOT / "proto/patchmill/v1").glob("*.proto")
+        stated = {name for file in files for name in re.findall(r"^ *rpc (\w+)", file.read_text(), re.MULTILINE)}
+        self.assertEqual(stated, set(_call.RPCS))
         self.assertEqual(set(FUNCTIONS), set(_call.RPCS))
         for function in FUNCTIONS.values():
             for client in (pm.Client, pm.AsyncClient):

@@ -9,6 +9,7 @@ from collections.abc import Callable, Sequence
 from typing import Any, ClassVar, TypeVar
 
 import numpy as np
+from google.protobuf.descriptor import FieldDescriptor
 from numpy.typing import NDArray
 
 from .errors import OptionError
@@ -88,7 +89,7 @@ def _at(path: str, name: str) -> str:
 
 
 def _numbers(values: Any, descriptor: Any, columns: int, path: str) -> list[Any]:
-    is_whole = descriptor.cpp_type in (descriptor.CPPTYPE_INT32, descriptor.CPPTYPE_INT64)
+    is_whole = descriptor.cpp_type not in (descriptor.CPPTYPE_DOUBLE, descriptor.CPPTYPE_FLOAT)
     try:
         array = np.asarray(values)
         if array.size == 0:
@@ -112,14 +113,14 @@ def _scalar(value: Any, descriptor: Any, path: str) -> Any:
             if isinstance(value, (str, bytes)):
                 raise TypeError
             return float(value)
-        if kind in (descriptor.CPPTYPE_INT32, descriptor.CPPTYPE_INT64, descriptor.CPPTYPE_ENUM):
-            return operator.index(value)
         if kind == descriptor.CPPTYPE_BOOL:
             if not isinstance(value, (bool, np.bool_)):
                 raise TypeError
             return bool(value)
         if descriptor.type == descriptor.TYPE_STRING and not isinstance(value, str):
             raise TypeError
+        if kind != descriptor.CPPTYPE_STRING:
+            return operator.index(value)
         return bytes(value) if descriptor.type == descriptor.TYPE_BYTES and not isinstance(value, str) else value
     except TypeError:
         names = {descriptor.CPPTYPE_BOOL: "True or False", descriptor.CPPTYPE_STRING: "text",
@@ -183,6 +184,11 @@ def set_fields(message: Any, path: str = "", /, **values: Any) -> Any:
     return message
 
 
+_ARRAY_TYPES = {FieldDescriptor.CPPTYPE_FLOAT: np.float32, FieldDescriptor.CPPTYPE_DOUBLE: np.float64,
+                FieldDescriptor.CPPTYPE_INT32: np.int32, FieldDescriptor.CPPTYPE_INT64: np.int64,
+                FieldDescriptor.CPPTYPE_UINT32: np.uint32, FieldDescriptor.CPPTYPE_UINT64: np.uint64}
+
+
 def array_of(numbers: Any, kind: Any, columns: int = 1) -> NDArray[Any]:
     """A packed field as an array with `columns` numbers in each row."""
     array = np.fromiter(numbers, dtype=kind, count=len(numbers))
@@ -205,8 +211,7 @@ def _get(message: Any, descriptor: Any, columns: int) -> Any:
     elif is_many:
         if descriptor.cpp_type in (descriptor.CPPTYPE_STRING, descriptor.CPPTYPE_BOOL):
             return list(value)
-        kinds = {descriptor.CPPTYPE_FLOAT: np.float32, descriptor.CPPTYPE_DOUBLE: np.float64}
-        return array_of(value, kinds.get(descriptor.cpp_type, np.int32), columns)
+        return array_of(value, _ARRAY_TYPES[descriptor.cpp_type], columns)
     return None if descriptor.containing_oneof is not None and not message.HasField(descriptor.name) else value
 
 
