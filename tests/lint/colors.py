@@ -9,7 +9,7 @@ import pathlib
 import re
 import sys
 
-SOURCES = ("cam/plan/job_preview.cc", "clients/cli/scene.cc", "clients/web/page/scene.ts")
+SOURCES = ("cam/plan/job_preview.cc", "clients/cli/scene_words.cc", "clients/web/page/scene.ts")
 KINDS = {"MOUNTAIN", "BASIN", "NEUTRAL"}
 REASONS = {"CONCAVE", "FLOOR", "SHANK", "HOLDER", "OUTSIDE", "STRATEGY"}
 BORDERS = {"SLOPE", "CURVATURE", "SILHOUETTE", "WATERSHED", "SEAM", "STRATEGY"}

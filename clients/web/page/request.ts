@@ -39,6 +39,8 @@ export const knownEndings = [...statedFormats, "json", "pb"];
 export const endingOf = (name: string): string => /\.([^./\\]+)$/.exec(name)?.[1]?.toLowerCase() ?? "";
 export const isCad = (name: string): boolean => cadFormats.includes(endingOf(name));
 
+const lengthUnits: Record<string, LengthUnit> = { "": LengthUnit.UNSPECIFIED, mm: LengthUnit.MILLIMETER, inch: LengthUnit.INCH, m: LengthUnit.METER };
+
 export function makeSource(file: ModelFile, choice: Choice): ModelSource {
   const ending = endingOf(file.name);
   const skipFaces = choice.list("skip-face").map((id) => wireText(id, 200));
@@ -51,6 +53,7 @@ export function makeSource(file: ModelFile, choice: Choice): ModelSource {
         content: file.bytes,
         // Others are known by their content.
         format: statedFormats.includes(ending) ? ending : "",
+        lengthUnit: wordOf(choice, "length-unit", lengthUnits),
         ...(isDefault ? {} : { importOptions: { skipFaces, ...(borderToleranceMm === undefined ? {} : { borderToleranceMm }) } }),
       },
     },

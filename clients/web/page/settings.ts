@@ -29,7 +29,8 @@ const s = (name: string, group: Group, kind: Kind, label: string, rest: Omit<Set
 
 export const settings: readonly Setting[] = [
   s("up", "part", "text", "Up", { default: "z", help: "What points up on the machine: an axis of the model, the axis that shows most (auto), or a plane face (f12).", fields: ["setup.up", "up_face"] }),
-  s("scale", "part", "number", "Scale", { default: "1", help: "The model is multiplied by this: 25.4 for a file in inches that does not state its unit.", fields: ["scale"] }),
+  s("scale", "part", "number", "Scale", { default: "1", help: "The model is multiplied by this.", fields: ["scale"] }),
+  s("length-unit", "part", "choice", "Unit of the file", { choices: [["", "as the file says, else mm"], ["mm", "mm"], ["inch", "inch"], ["m", "m"]], help: "Unit of a model file that states none (.bpt, .bv, .bez, .patches).", fields: ["source.file.length_unit"], isRare: true }),
   s("zero", "part", "text", "Program zero", { hint: "origin of the model", help: "Point of the part that is X0 Y0 Z0: origin, top-center, bottom-corner, or X,Y,Z. Not stated: the origin, with a warning.", fields: ["program_zero.x_mm", "program_zero.y_mm", "program_zero.z_mm", "zero_anchor"] }),
   s("translate", "part", "text", "Shift", { hint: "X,Y,Z", unit: "mm", help: "The model is shifted by this after it is scaled and turned.", fields: ["translation.x_mm", "translation.y_mm", "translation.z_mm"], isRare: true }),
   s("skip-face", "part", "list", "Faces left out", { help: "CAD files: these faces are not read (f12), for instance those that cannot be. The tool keeps off a box around each.", fields: ["skip_faces"], isRare: true }),

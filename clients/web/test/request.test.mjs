@@ -106,7 +106,7 @@ test("page and command line ask for the same job", { timeout: 80_000 }, async ()
     }
   });
   // Nothing of the table is left out, but what needs a CAD file or plans a job twenty times.
-  const missing = settings.map((s) => s.name).filter((name) => !seen.has(name) && !["skip-face", "border-tolerance", "auto-angle"].includes(name));
+  const missing = settings.map((s) => s.name).filter((name) => !seen.has(name) && !["skip-face", "border-tolerance", "length-unit", "auto-angle"].includes(name));
   assert.deepEqual(missing, []);
 });
 
