@@ -456,7 +456,9 @@ absl::StatusOr<WrittenProgram> WriteProgramWithLines(const Toolpath& toolpath, c
                                                      const PostParams& params) {
   PM_RETURN_IF_ERROR(Validate(toolpath, tool, params));
   const Dialect& dialect = params.dialect;
-  const auto [moves, sections] = MoveRounder(toolpath, params).Round();
+  const auto rounded = MoveRounder(toolpath, params).Round();
+  const auto& moves = rounded.moves;
+  const auto& sections = rounded.sections;
   const auto place = [&](std::size_t k) { return PlaceText(params, moves.front().to[k]); };
   PostValues values{.program = fmt::format("{:04}", params.program_number),
                     .work_offset = params.work_offset,

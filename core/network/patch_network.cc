@@ -194,7 +194,9 @@ void ReportMeetings(const Facts& facts, PatchNetwork& network, NetworkFindings& 
                          findings.Name(members[0]));
     });
   }
-  for (const auto& [face, fold] : folds) {
+  for (const auto& entry : folds) {
+    const auto& face = entry.first;
+    const auto& fold = entry.second;
     findings.AtEdge("NON_MANIFOLD_EDGE", Severity::kWarning, fold.edge, [&] {
       const bool one = fold.count == 1;
       return fmt::format(

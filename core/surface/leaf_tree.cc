@@ -107,7 +107,7 @@ struct Builder {
       if (!bins.Parts(axis)) continue;
       std::array<std::pair<int, std::int32_t>, kFew> in_order;
       for (std::size_t k = 0; k < items.size(); ++k) {
-        const std::pair<int, std::int32_t> at(bin[k][axis], items[k]);
+        const std::pair<int, std::int32_t> at(int{bin[k][axis]}, items[k]);
         std::size_t i = k;
         for (; i > 0 && in_order[i - 1].first > at.first; --i) in_order[i] = in_order[i - 1];
         in_order[i] = at;
