@@ -1,0 +1,1 @@
+"""The contract by its descriptors: no generated code."""
