@@ -1,1 +1,1 @@
-"""The contract by its descriptors: no generated code."""
+"""The contract by its descriptors, and its pages: what scripts/contract_pages.py writes."""
