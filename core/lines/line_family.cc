@@ -12,6 +12,8 @@ template <class... Fs>
 struct Overloaded : Fs... {
   using Fs::operator()...;
 };
+template <class... Fs>
+Overloaded(Fs...) -> Overloaded<Fs...>;  // clang 14 needs it
 
 // The smallest number that is 1, 2 or 5 times a power of ten and at least x > 0.
 double RoundStep(double x) {
