@@ -127,6 +127,7 @@ absl::StatusOr<BlockModes> SortModes(const GcodeBlock& block, const Dialect& dia
       }
       if (group == nullptr) return absl::InvalidArgumentError(Unsupported(word));
       // Many controls have G80 in a group of its own; beside another motion it only ends cycles.
+      if (group == &modes.motion && code == 800) modes.ends_cycles = true;
       if (group == &modes.motion && (code == 800 || modes.motion == 800)) {
         if (!modes.motion || code != 800) modes.motion = code;
         continue;

@@ -17,6 +17,7 @@ struct BlockModes {
   using Code = std::optional<int>;
   bool deletable = false;           // the line starts with /
   Code motion;                      // G0 G1 G2 G3 G73 G80 G81 G82 G83
+  bool ends_cycles = false;         // G80, also beside another motion
   Code plane;                       // G17 G18 G19
   Code units;                       // G20 G21
   Code distance;                    // G90 G91

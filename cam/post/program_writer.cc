@@ -45,8 +45,10 @@ absl::Status Validate(const Toolpath& toolpath, const Tool& tool, const PostPara
   }
   if (!HasUnit(params.dialect, params.unit))
     return bad(fmt::format("post.unit: the dialect {} has no programs in inches", params.dialect.name));
-  if (!IsWorkOffset(params.work_offset)) {
-    return bad(fmt::format("post.work_offset = \"{}\"; must be G54 to G59", params.work_offset));
+  const bool siemens = params.dialect.syntax == Syntax::kSiemens;
+  if (!IsWorkOffset(params.work_offset) || (siemens && params.work_offset >= "G58")) {
+    return bad(fmt::format("post.work_offset = \"{}\"; must be G54 to {}", params.work_offset,
+                           siemens ? "G57 (G58 and G59 shift the frame on these controls)" : "G59"));
   }
   if (!(params.controller_tolerance >= 0.0) || !std::isfinite(params.controller_tolerance)) {
     return bad(fmt::format("controller_tolerance = {} mm; must be >= 0", params.controller_tolerance));

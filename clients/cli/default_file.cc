@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 #include <sstream>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -21,7 +22,8 @@ std::vector<const CLI::App*> Commands(const CLI::App& app) {
 
 const CLI::Option* ListedOption(const CLI::App& command, const std::string& name) {
   const CLI::Option* const option = command.get_option_no_throw("--" + name);
-  return option != nullptr && !option->get_group().empty() ? option : nullptr;
+  const bool listed = option != nullptr && !option->get_group().empty() && option != command.get_help_ptr();
+  return listed ? option : nullptr;
 }
 
 // Takes `--config FILE` or `--config=FILE` out of the arguments. INVALID_ARGUMENT if the file is missing,
@@ -46,8 +48,12 @@ absl::StatusOr<std::optional<std::string>> TakePath(std::vector<std::string>& ar
 
 bool IsGiven(const std::vector<std::string>& arguments, const CLI::Option& option) {
   return std::any_of(arguments.begin(), arguments.end(), [&](const std::string& argument) {
-    const std::string name = argument.substr(0, argument.find('='));
-    return option.check_name(name) && name.front() == '-';
+    if (argument.size() < 2 || argument.front() != '-') return false;
+    if (argument[1] != '-') {  // "-o" or "-oFILE"
+      const std::vector<std::string>& letters = option.get_snames();
+      return std::find(letters.begin(), letters.end(), argument.substr(1, 1)) != letters.end();
+    }
+    return option.check_name(argument.substr(0, argument.find('=')));
   });
 }
 
@@ -84,7 +90,8 @@ absl::StatusOr<std::vector<std::string>> WithDefaults(const CLI::App& app,
   if (!*path) return arguments;
   const absl::StatusOr<std::string> text = ReadWholeFile(**path);
   if (!text.ok()) return text.status();
-  std::istringstream in(*text);
+  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+  std::istringstream in(text->compare(0, 3, kByteOrderMark) == 0 ? text->substr(3) : *text);
   std::vector<CLI::ConfigItem> items;
   try {
     items = CLI::ConfigTOML().from_config(in);
@@ -95,26 +102,40 @@ absl::StatusOr<std::vector<std::string>> WithDefaults(const CLI::App& app,
   for (const CLI::App* command : Commands(app)) {
     if (!arguments.empty() && arguments.front() == command->get_name()) chosen = command;
   }
+  // What stands in the section of the command goes before what stands above all sections.
+  std::stable_partition(items.begin(), items.end(),
+                        [](const CLI::ConfigItem& item) { return !item.parents.empty(); });
   std::vector<std::string> more;
   for (const CLI::ConfigItem& item : items) {
     if (item.name == "++" || item.name == "--") continue;  // the reader's marks of sections
+    if (item.parents.size() > 1)
+      return Fault(**path, fmt::format("{}: sections have no parts", Printable(item.fullname())));
     if (const absl::Status known = CheckItem(app, **path, item); !known.ok()) return known;
     if (chosen == nullptr || (!item.parents.empty() && item.parents.front() != chosen->get_name())) continue;
     const CLI::Option* const option = ListedOption(*chosen, item.name);
     if (option == nullptr || IsGiven(arguments, *option) || IsGiven(more, *option)) continue;
+    // A tool of the command line brings its own values.
+    const CLI::Option* const tool = chosen->get_option_no_throw("--tool");
+    if (tool != nullptr && option->get_group() == tool->get_group() && IsGiven(arguments, *tool)) continue;
     if (option->get_items_expected_max() == 0) {
-      const bool on = item.inputs.empty() || item.inputs.front() == "true";
-      if (!on && item.inputs.front() != "false")
-        return Fault(
-            **path, fmt::format("{} = {}; must be true or false", item.name, Printable(item.inputs.front())));
+      const std::string value = item.inputs.empty() ? "true" : item.inputs.front();
+      const bool on = value == "true" || value == "yes" || value == "1";
+      if (!on && value != "false" && value != "no" && value != "0")
+        return Fault(**path, fmt::format("{} = {}; must be true or false", item.name, Printable(value)));
       if (on) more.push_back("--" + item.name);
       continue;
+    }
+    const int most = option->get_items_expected_max();
+    if (static_cast<int>(item.inputs.size()) > most && !option->get_allow_extra_args()) {
+      return Fault(
+          **path,
+          fmt::format("{} has {} values, and takes {}; a value with blanks or commas stands in quotes",
+                      item.name, item.inputs.size(), most));
     }
     more.push_back("--" + item.name);
     more.insert(more.end(), item.inputs.begin(), item.inputs.end());
   }
-  // Behind the last argument a list of values would take the model for one of them.
-  if (!arguments.empty()) arguments.insert(arguments.begin() + 1, more.begin(), more.end());
+  arguments.insert(arguments.end(), more.begin(), more.end());
   return arguments;
 }
 

@@ -101,6 +101,7 @@ _patchmill() {{
   case "$current" in
   -*) ;;
   *)
+    local IFS=$'\n'
     COMPREPLY=($(compgen -f -- "$current"))
     return
     ;;

@@ -84,7 +84,9 @@ Shading CurvatureShading(const Scene& scene) {
   return {"Contour curvature",
           std::move(scale),
           {},
-          {{stops[5], "above 0: bends outward"}, {stops[1], "below 0: bends inward"}}};
+          {{stops[5], "above 0: bends outward"},
+           {stops[1], "below 0: bends inward"},
+           {kUnknown, "level: no contour"}}};
 }
 
 Shading LeftoverShading(const Scene& scene) {

@@ -31,6 +31,8 @@ using render::Project;
 using render::Rgb;
 using render::Seen;
 
+constexpr const char* kStockColor = "#8c7a5b";
+constexpr const char* kClampColor = "#8d97a5";
 constexpr int kSamples = 2;  // pixels are drawn at twice their number and averaged
 
 double Dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
@@ -103,7 +105,9 @@ void DrawBlock(const v1::MeshBlock& block, const Shading& shading, const Camera&
     canvas.FillTriangle(triangle, [&](double a, double b, double c) {
       const double here = a * value[0] + b * value[1] + c * value[2];
       const bool marked = std::abs(here - mark) < near_mark;
-      return Lit(marked ? Rgb{18, 18, 18} : ColorAt(shading.scale->scale, here), lit(a, b, c));
+      // The legend is read by its colours, so the light changes them little.
+      const double light_here = 0.78 + 0.22 * std::min(1.0, lit(a, b, c));
+      return Lit(marked ? Rgb{18, 18, 18} : ColorAt(shading.scale->scale, here), light_here);
     });
   }
 }
@@ -291,7 +295,7 @@ absl::StatusOr<std::string> MakePicture(const Scene& scene, const PictureOptions
   const Camera camera = FitPoints(options.view, points, drawn);
   Canvas canvas(drawn, FromHex("#f3f5f7"));
   for (const v1::MeshBlock& block : scene.mesh) DrawBlock(block, *shading, camera, canvas);
-  for (const Prism& clamp : clamps) DrawPrism(clamp, camera, FromHex("#8d97a5"), 1.0, canvas);
+  for (const Prism& clamp : clamps) DrawPrism(clamp, camera, FromHex(kClampColor), 1.0, canvas);
   // Lines on the surface lie up to this much below its triangles, or are as near as a few pixels.
   const double nearer = 3.0 * camera.pixel_mm + 2.0 * scene.tolerance;
   if (Has(options, "borders")) DrawBorders(scene.regions, camera, nearer, canvas);
@@ -301,7 +305,7 @@ absl::StatusOr<std::string> MakePicture(const Scene& scene, const PictureOptions
     DrawTurned(tool.shank, *tip, camera, FromHex("#b9c0c8"), canvas);
     DrawTurned(tool.holder, *tip, camera, FromHex("#6f7a87"), canvas);
   }
-  if (stock) DrawPrism(*stock, camera, FromHex("#8c7a5b"), 0.13, canvas);
+  if (stock) DrawPrism(*stock, camera, FromHex(kStockColor), 0.13, canvas);
 
   Legend legend;
   legend.title = scene.title;
@@ -317,6 +321,10 @@ absl::StatusOr<std::string> MakePicture(const Scene& scene, const PictureOptions
     for (const auto& [kind, drawn_too] : kinds)
       legend.lines.push_back({Lit(FromHex(BorderColor(kind)), 0.8), "border: " + BorderName(kind)});
   }
+  if (stock) legend.lines.push_back({FromHex(kStockColor), "stock"});
+  for (const Prism& clamp : clamps) legend.lines.push_back({FromHex(kClampColor), clamp.name});
+  if (tip) legend.lines.push_back({FromHex("#d9a441"), "tool"});
+  if (tip && !tool.holder.empty()) legend.lines.push_back({FromHex("#6f7a87"), "holder"});
   legend.view = ViewName(options.view);
   Camera seen = camera;
   seen.pixel_mm = camera.pixel_mm * kSamples;

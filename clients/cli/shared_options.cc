@@ -11,13 +11,17 @@ void AcceptOptionsOf(const CLI::App& other, CLI::App& command) {
   for (const CLI::Option* option : other.get_options()) {
     for (const std::string& name : option->get_lnames()) {
       if (command.get_option_no_throw("--" + name) != nullptr) continue;
+      std::string names = "--" + name;
+      for (const std::string& letter : option->get_snames()) {
+        if (command.get_option_no_throw("-" + letter) == nullptr) names = "-" + letter + "," + names;
+      }
       if (option->get_items_expected_max() == 0) {
-        command.add_flag("--" + name)->description(kWithoutEffect)->group("");
+        command.add_flag(names)->description(kWithoutEffect)->group("");
         continue;
       }
       command
           .add_option_function<std::vector<std::string>>(
-              "--" + name, [](const std::vector<std::string>&) {}, kWithoutEffect)
+              names, [](const std::vector<std::string>&) {}, kWithoutEffect)
           ->type_size(option->get_type_size_min(), option->get_type_size_max())
           ->expected(option->get_expected_min(), option->get_expected_max())
           ->delimiter(option->get_delimiter())

@@ -70,8 +70,13 @@ class Canvas {
 
 template <class Visit>
 void Canvas::VisitPixels(Triangle corners, const Visit& visit) const {
+  // Both triangles of a side compute it from the same end, so that rounding leaves no pixel to neither.
   const auto twice_area = [](const Seen& p, const Seen& q, double x, double y) {
-    return (q.x - p.x) * (y - p.y) - (q.y - p.y) * (x - p.x);
+    const bool turned = q.x < p.x || (q.x == p.x && q.y < p.y);
+    const Seen& a = turned ? q : p;
+    const Seen& b = turned ? p : q;
+    const double twice = (b.x - a.x) * (y - a.y) - (b.y - a.y) * (x - a.x);
+    return turned ? -twice : twice;
   };
   double area = twice_area(corners[0], corners[1], corners[2].x, corners[2].y);
   const bool turned = area < 0.0;

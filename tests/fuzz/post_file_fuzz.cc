@@ -25,8 +25,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   params.dialect = *dialect;
   params.clearance_z = 20.0;
   params.header = {"part: any (part)"};
-  params.sections = {{.first_move = 0, .comment = "first"},
-                     {.first_move = 3, .comment = "last", .tip = {{-1.5, 2.0}}, .continued = true, .restart = true}};
+  params.sections = {
+      {.first_move = 0, .comment = "first"},
+      {.first_move = 3, .comment = "last", .tip = {{-1.5, 2.0}}, .continued = true, .restart = true}};
   params.restart_points = !dialect->restart.empty();
   const auto program = WriteProgram(path, tool, params);
   if (!program.ok()) __builtin_trap();

@@ -96,6 +96,15 @@ TEST_F(CliDefaults, OfAFileGiveTheSameProgram) {
     ASSERT_EQ(run.status, 0) << run.err;
     EXPECT_EQ(Slurp(out_ / "part.ngc"), program);
   }
+  // The section of the command goes before what stands above all sections, in whatever order.
+  const std::string both = in_.Write("both.ini", "spindle = 8000\nscallop = 0.1\n[mill]\nspindle = 9000\n");
+  ASSERT_EQ(Mill({"--config", both}).status, 0);
+  EXPECT_THAT(Slurp(out_ / "part.ngc"), HasSubstr("S9000"));
+  // Lists of values do not swallow the model.
+  const std::string lists =
+      in_.Write("lists.ini", "scallop = 0.1\ntranslate = [0, 0, 5]\nobstacle = \"a=9: 60,0 70,0 70,9\"\n");
+  EXPECT_EQ(Patchmill({"mill", "-o", out_ / "part.ngc", model_, "--config", lists}).status, 0);
+  EXPECT_EQ(Mill({"--config", lists}).status, 0);
   // The command line goes before the file.
   ASSERT_EQ(Mill({"--config", shop, "--spindle", "9000"}).status, 0);
   EXPECT_THAT(Slurp(out_ / "part.ngc"), HasSubstr("S9000"));

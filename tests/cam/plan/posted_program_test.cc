@@ -57,7 +57,9 @@ TEST_F(PostedProgram, CallsTheToolOfTheJob) {
 }
 
 TEST_F(PostedProgram, UsesTheLengthOfTheTool) {
-  EXPECT_THAT(ErrorsWith(OwnFanuc("H{tool}", "H2 (T{tool})")), HasSubstr("POST_LEAVES_TO_CONTROL"));
+  EXPECT_THAT(ErrorsWith(OwnFanuc("H{tool}", "H2 (T{tool})")),
+              HasSubstr("POST_OTHER_OFFSET the post file own has G43 H2, and the job's tool is T1"));
+  EXPECT_THAT(ErrorsWith(OwnFanuc("G43 H{tool}", "G43 (T{tool})")), HasSubstr("G43 without H"));
   EXPECT_THAT(ErrorsWith(OwnFanuc("G43 H{tool} Z{z}", "Z{z} (T{tool})")), HasSubstr("no G43 is in force"));
 }
 
@@ -80,6 +82,24 @@ TEST_F(PostedProgram, StatesTheModes) {
   EXPECT_THAT(ErrorsWith(OwnFanuc("{unit} G40", "G40 ({unit})")), HasSubstr("neither G20 nor G21"));
 }
 
+TEST_F(PostedProgram, ChoosesTheWorkOffsetOfTheJob) {
+  EXPECT_THAT(ErrorsWith(OwnFanuc("{work_offset}\n", "G55 (was {work_offset})\n")),
+              HasSubstr("POST_OTHER_OFFSET the post file own chooses G55, and the job has G54"));
+}
+
+TEST_F(PostedProgram, SwitchesTheCoolantOfTheJob) {
+  EXPECT_THAT(ErrorsWith(OwnFanuc("{coolant}", "({coolant})")), HasSubstr("POST_OTHER_COOLANT"));
+  job_.operation.tool.coolant = Coolant::kOff;
+  EXPECT_EQ(ErrorsWith(OwnFanuc("M7", "M7")), "");
+  EXPECT_THAT(ErrorsWith(OwnFanuc("S{speed} M3", "S{speed} M3\nM8")), HasSubstr("the coolant is on"));
+}
+
+TEST_F(PostedProgram, StatesModesThatTheLastProgramMayHaveLeft) {
+  for (const std::string word : {"G94", "G40", "G80"}) {
+    EXPECT_THAT(ErrorsWith(OwnFanuc(" " + word, "")), HasSubstr("states no " + word)) << word;
+  }
+}
+
 TEST_F(PostedProgram, HasPointsWhereTheControlMayCountIncrements) {
   EXPECT_THAT(ErrorsWith(OwnFanuc("G43 H{tool} Z{z}", "G43 H{tool} Z100\nZ{z}")),
               HasSubstr("Z100 has no decimal point"));
@@ -94,7 +114,7 @@ TEST_F(PostedProgram, MayBeStartedAtItsRestartPoints) {
   const std::string section = text.substr(restart, text.find("[end]") - restart);
   for (const auto& [from, to, fault] : std::vector<std::array<std::string, 3>>{
            {"G91 G28 Z0.\n", "", "the first motion is not straight up to machine zero"},
-           {"S{speed} M3", "S{speed}", "the spindle turns at 0 rpm"},
+           {"S{speed} M3", "S{speed}", "the spindle stands still"},
            {"{coolant}", "({coolant})", "the coolant is off"},
            {"G43 H{tool} Z{z}", "(T{tool})\nZ{z}", "no G43 is in force"},
            {"{unit}", "({unit})", "neither G20 nor G21"}}) {

@@ -476,10 +476,12 @@ TEST(OwnPostFile, FaultsHaveTheirLine) {
             "line 16: G91 has a meaning of its own, which cannot be changed");
   EXPECT_EQ(with("M51 = none", "M030 = none"),
             "line 16: M030 has a meaning of its own, which cannot be changed");
-  for (const std::string word : {"G52", "G068", "M98", "G92", "G51.1", "G43.4", "G65"}) {
+  for (const std::string word : {"G52", "G068", "M98", "G92", "G51.1", "G43.4", "G65", "G54.1", "G154",
+                                 "G505", "G28.1", "G68.3", "M97.1"}) {
     EXPECT_THAT(with("M51 = none", word + " = none"),
                 HasSubstr("line 16: " + word + " moves the tool, calls a program or changes coordinates"));
   }
+  EXPECT_THAT(with("T{tool}", "/T{tool}"), HasSubstr("a line with / may be skipped"));
   EXPECT_EQ(with("[end]", "[begin]"), "line 27: [begin] is given twice");
   EXPECT_THAT(with("name = shop", "name =\tshop"), HasSubstr("byte 0x09: only printable ASCII"));
   EXPECT_EQ(with("[coolant]", "[arcs]\nhelices = yes\n[coolant]"),
