@@ -103,9 +103,8 @@ std::vector<GentlePoint> GentlePoints(const RegionPoints& all, std::size_t piece
   points.reserve(found.size());
   for (auto& [cell, point] : found) {
     const int i = static_cast<int>(cell) / n, j = static_cast<int>(cell) % n;
-    const auto is_steep = [&](int a, int b) {
-      return a >= 0 && b >= 0 && a < n && b < n &&
-             steep[static_cast<std::size_t>(a * n + b)] == point.component;
+    const auto is_steep = [&, component = point.component](int a, int b) {
+      return a >= 0 && b >= 0 && a < n && b < n && steep[static_cast<std::size_t>(a * n + b)] == component;
     };
     const int u = is_steep(i - stride, j) + is_steep(i + stride, j);
     const int v = is_steep(i, j - stride) + is_steep(i, j + stride);
