@@ -74,13 +74,18 @@ class Judged(HasPage):
         """Assumptions, warnings and findings."""
         return self.report.diagnostics
 
+    @property
+    def figures(self) -> dict[str, str]:
+        """The figures of the summary of `mill`, in its words."""
+        return dict(figures_of(self.report))
+
     def report_json(self) -> str:
         """The report as JSON, as the command line writes it."""
         return str(json_format.MessageToJson(self.report_message, including_default_value_fields=True,
                                              preserving_proto_field_name=True))
 
     def __str__(self) -> str:
-        figures = [f"{name}: {value}" for name, value in figures_of(self.report)]
+        figures = [f"{name}: {value}" for name, value in self.figures.items()]
         return _lines(f"{self.outcome.name}: {self.name or 'part'}", figures, finding_lines(self.findings))
 
     def __repr__(self) -> str:
