@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
 # Runs one of the long tests of docs/long_tests.md, each in less than an hour, and writes its row of that page.
 #   scripts/long_tests.sh NAME
-# NAME: soak, whole, asan, asan_passes, asan_jobs, tsan, random, certificates, fuzz, container, coverage, linuxcnc_times.
+# NAME: soak, whole, asan, asan_passes, asan_jobs, tsan, random, certificates, fuzz, container, coverage, linuxcnc_times, freecad.
 # LIMIT: minutes after which a test is ended, 60 unless it is set; more for a machine that does other work beside.
+# PATCHMILL_BIN: of freecad, a folder with built programs; unset: they are built.
 # SEED: of soak, random and certificates; another one each day unless it is set. MINUTES: of soak, 30 unless it is set.
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -94,13 +95,18 @@ linuxcnc_times() {  # five programs in LinuxCNC, without a display
   build release patchmill
   python3 tests/bench/linuxcnc_times.py build/release/bin/patchmill docs/machine.json --limit 5
 }
+freecad() {  # the add-on in Debian's FreeCAD
+  if [ -n "${PATCHMILL_BIN:-}" ]; then scripts/setup.sh; else build release patchmill patchmilld; fi
+  install freecad xvfb xauth
+  tests/freecad/run.sh "${PATCHMILL_BIN:-build/release/bin}"
+}
 
 case "$name" in
   soak) command="MINUTES=$minutes SEED=$seed scripts/long_tests.sh soak" ;;
   random | certificates) command="SEED=$seed scripts/long_tests.sh $name" ;;
-  whole | asan | asan_passes | asan_jobs | tsan | fuzz | container | coverage | linuxcnc_times) command="scripts/long_tests.sh $name" ;;
+  whole | asan | asan_passes | asan_jobs | tsan | fuzz | container | coverage | linuxcnc_times | freecad) command="scripts/long_tests.sh $name" ;;
   *)
-    sed -n '2,6s/^# \?//p' "$0" >&2
+    sed -n '2,7s/^# \?//p' "$0" >&2
     exit 2
     ;;
 esac
@@ -118,7 +124,7 @@ if [ "${LONG_TESTS_INNER:-}" != "$name" ]; then
     *) result="**failed**, $took min" ;;
   esac
   # What the test says about itself in its last line, where it has one.
-  said=$(grep -E '^(soak|lines|TOTAL|linuxcnc_times)' "$log" | tail -1 | tr -s ' |' ' ' || true)
+  said=$(grep -E '^(soak|lines|TOTAL|linuxcnc_times|freecad)' "$log" | tail -1 | tr -s ' |' ' ' || true)
   commit=$(git rev-parse --short HEAD)
   [ -z "$(git status --porcelain --untracked-files=no)" ] || commit="$commit, changed"
   row="| $name | \`$command\` | $commit | $(date +%F) | $result${said:+; $said} |"
