@@ -1,10 +1,11 @@
 """The workbench in FreeCAD's window: commands, report view, icons, preferences, undo."""
 import pathlib
+import time
 
 import FreeCAD as App
 import FreeCADGui as Gui
 from patchmill_freecad import ICONS, commands, service
-from PySide import QtGui
+from PySide import QtCore, QtGui
 from support import InDocument
 
 
@@ -102,6 +103,33 @@ class Window(InDocument):
         Gui.Selection.addSelection(self.document.Name, wire.Name)
         Gui.runCommand("Patchmill_Fair")
         self.assertEqual(len(self.document.getObject("PatchmillFairedCurve").Shape.Edges), 1)
+
+    def test_escape_ends_a_job(self):
+        part, made = self.milled()
+        file = pathlib.Path(made.WrittenFile)
+        written = file.read_bytes()
+        shown = []
+
+        def press():
+            """Esc in the dialog of the progress."""
+            dialog = QtGui.QApplication.activeModalWidget()
+            if isinstance(dialog, QtGui.QProgressDialog):
+                shown.append(dialog.labelText())
+                QtGui.QApplication.postEvent(dialog, QtGui.QKeyEvent(QtCore.QEvent.KeyPress, QtCore.Qt.Key_Escape, QtCore.Qt.NoModifier))
+
+        timer = QtCore.QTimer()
+        timer.timeout.connect(press)
+        timer.start(300)
+        began = time.monotonic()
+        made.Scallop, made.Tolerance = 0.0003, 0.0005  # takes minutes
+        self.document.recompute()
+        took = time.monotonic() - began
+        timer.stop()
+        self.assertTrue(shown and shown[0].startswith("Mill part: "), shown)
+        self.assertIn("cancelled", made.Outcome)
+        self.assertLess(took, 30)
+        self.assertEqual(file.read_bytes(), written)
+        self.assertNotIn("Traceback", self.said())
 
     def test_verify(self):
         part, made = self.milled()

@@ -12,7 +12,7 @@ import FreeCAD as App
 import Path
 import patchmill as pm
 
-from . import cam_job, console, frame, model, properties, service
+from . import cam_job, console, frame, model, progress, properties
 from .job import Links, Values
 from .moves import Command, commands
 from .options import RESULT, Option
@@ -73,11 +73,11 @@ class Feature:
         inputs = self._digest(document_object, values, body, links)
         if inputs == document_object.Inputs and not self._is_missing(document_object):
             return
-        with service.progress_bar(document_object.Label) as bar:
+        with progress.progress_bar(document_object.Label) as bar:
             self._compute(document_object, values, body, links, bar)
         document_object.Inputs = inputs
 
-    def _compute(self, document_object: Any, values: Values, body: model.Body, links: Links, bar: service.Bar) -> None:
+    def _compute(self, document_object: Any, values: Values, body: model.Body, links: Links, bar: progress.Bar) -> None:
         raise NotImplementedError
 
     def _is_missing(self, document_object: Any) -> bool:

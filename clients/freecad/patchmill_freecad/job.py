@@ -64,12 +64,11 @@ class JobRequest:
     setup: pm.Setup
     post: pm.Post
     import_options: pm.ImportOptions | None = None
-    dialect: str = "linuxcnc"
 
 
 ENUMS = {"setup.up": pm.UpAxis, "tool.coolant": pm.Coolant, "operation.strategy": pm.Strategy, "operation.edge_rule": pm.EdgeRule,
          "operation.contour_direction": pm.CutDirection}
-NESTED = {"selection": pm.Selection, "heights": pm.Heights, "leads": pm.Leads, "feeds": pm.Feeds, "stock": pm.Stock}
+NESTED = {"selection": pm.Selection, "heights": pm.Heights, "leads": pm.Leads, "feeds": pm.Feeds}
 
 
 def _or_none(value: float) -> float | None:
@@ -218,7 +217,7 @@ def job_request(values: Values, links: Links = Links(), options: Sequence[Option
         post.post_file, post.dialect = text, ""
     if values.get("Inch"):
         post.unit = pm.LengthUnit.INCH
-    return JobRequest(operation, setup, post, imported if values["BorderTolerance"] else None, values["Dialect"])
+    return JobRequest(operation, setup, post, imported if values["BorderTolerance"] else None)
 
 
 def verification_arguments(values: Values, links: Links = Links()) -> tuple[JobRequest, dict[str, Any]]:

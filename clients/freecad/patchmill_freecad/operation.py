@@ -7,7 +7,7 @@ from typing import Any
 
 import FreeCAD as App
 
-from . import cam_job, console, model, service
+from . import cam_job, console, model, progress, service
 from .feature import Feature, file_beside
 from .job import JobRequest, Links, Values, job_request
 from .moves import Command
@@ -20,7 +20,7 @@ class Operation(Feature):
 
     OPTIONS = OPERATION
 
-    def _compute(self, document_object: Any, values: Values, body: model.Body, links: Links, bar: service.Bar) -> None:
+    def _compute(self, document_object: Any, values: Values, body: model.Body, links: Links, bar: progress.Bar) -> None:
         request = job_request(values, links)
         name = model_name(document_object)
         result = service.client().mill(body.model(name, request.import_options), request.operation, setup=request.setup, post=request.post,
@@ -38,7 +38,8 @@ class Operation(Feature):
             raise Problem(f"there is no program: {result.outcome.name}. " + " ".join(
                 finding.message for finding in result.findings if finding.code == result.outcome.name or finding.severity.name == "ERROR"))
         if file is None:
-            console.warning(f"{document_object.Label}: no program file was written: save the document, or set ProgramFile.")
+            console.warning(f"{document_object.Label}: no program file was written: set ProgramFile, or save the document and "
+                            "mark the operation to recompute.")
             document_object.WrittenFile = ""
             return
         _write(file, result.program_bytes, "ProgramFile")

@@ -8,7 +8,7 @@ from typing import Any
 
 import FreeCAD as App
 
-from . import cam_job, console, model, service
+from . import cam_job, console, model, progress, service
 from .feature import Feature
 from .job import Links, Values, verification_arguments
 from .options import VERIFICATION
@@ -32,7 +32,7 @@ class Verification(Feature):
     def _digest(self, document_object: Any, values: Values, body: model.Body, links: Links) -> str:
         return super()._digest(document_object, values, body, links) + hashlib.sha256(self._program(values)).hexdigest()
 
-    def _compute(self, document_object: Any, values: Values, body: model.Body, links: Links, bar: service.Bar) -> None:
+    def _compute(self, document_object: Any, values: Values, body: model.Body, links: Links, bar: progress.Bar) -> None:
         request, arguments = verification_arguments(values, links)
         program = self._program(values)
         name = f"{document_object.Part[0].Label}.step"
