@@ -49,7 +49,7 @@ Arc ArcOf(const v1::PathBlock& block, int move, int number) {
 }
 
 render::Point OnArc(const Arc& arc, const render::Point& start, const render::Point& end, double share) {
-  const auto [first, second, third] = arc.axes;
+  const std::size_t first = arc.axes[0], second = arc.axes[1], third = arc.axes[2];
   const double u = start[first] - arc.center[first], v = start[second] - arc.center[second];
   const auto turned = [&](double angle) {
     return std::array<double, 2>{arc.center[first] + u * std::cos(angle) - v * std::sin(angle),

@@ -101,7 +101,7 @@ TEST(BuildModel, RefusesWithTheField) {
   };
   v1::BuildModelRequest request = FromJson(kBoundary);
   request.clear_length_unit();
-  refused(request, "length_unit = 0");
+  refused(request, "length_unit is missing; add");
   request = FromJson(kBoundary);
   request.mutable_boundary()->mutable_curves()->RemoveLast();
   refused(request, "boundary.curves are 3; must be 4");

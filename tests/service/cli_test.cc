@@ -89,8 +89,8 @@ TEST_F(Cli, MillWritesProgramReportAndPicture) {
 }
 
 // Before the job costs anything, and nothing is written.
-TEST_F(Cli, APictureThatIsNoSvgIsRefused) {
-  const Finished run = Mill(bump_, {"--preview", out_ / "part.png"});
+TEST_F(Cli, APreviewOfAnotherKindIsRefused) {
+  const Finished run = Mill(bump_, {"--preview", out_ / "part.gif"});
   EXPECT_EQ(run.status, 2);
   EXPECT_THAT(run.err, HasSubstr(".svg"));
   EXPECT_THAT(out_.Names(), IsEmpty());
@@ -419,7 +419,7 @@ TEST_F(Cli, RegionsWritesJsonOrPicture) {
     counts.push_back(response.regions().regions_size());
   }
   EXPECT_GT(counts[1], counts[0]);
-  const Finished other = Patchmill({"regions", bump_, "-o", out_ / "r.png"});
+  const Finished other = Patchmill({"regions", bump_, "-o", out_ / "r.gif"});
   EXPECT_EQ(other.status, 2);
   EXPECT_THAT(other.err, HasSubstr("must end in .json or .svg"));
 }

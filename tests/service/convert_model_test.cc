@@ -185,9 +185,9 @@ TEST(ModelDigestTest, DependsOnEveryNumberAndNotOnTheUnitItCameIn) {
 TEST(ModelErrors, MissingUnitPatchesOrToleranceIsAStatus) {
   v1::PatchModel model = Bump();
   model.clear_length_unit();
-  EXPECT_THAT(
-      FromProto(model, "source.model").status(),
-      StatusIs(absl::StatusCode::kInvalidArgument, HasSubstr("source.model.length_unit = 0; must be")));
+  EXPECT_THAT(FromProto(model, "source.model").status(),
+              StatusIs(absl::StatusCode::kInvalidArgument,
+                       HasSubstr("source.model.length_unit is missing; add \"length_unit\"")));
   model = Bump();
   model.clear_patches();
   EXPECT_THAT(FromProto(model, "source.model").status(),
