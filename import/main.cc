@@ -105,8 +105,8 @@ absl::StatusOr<std::vector<FaceId>> FindFaces(const std::vector<std::string>& id
   return faces;
 }
 
-// Faults of a skipped face do not stop the import: a box stands in its place. FACE_UNTRIMMED does: what a lost
-// loop surrounds may lie outside the box.
+// Faults of a skipped face do not stop the import: a box stands in its place. FACE_UNTRIMMED does: what a
+// lost loop surrounds may lie outside the box.
 Diagnostics Forgiven(Diagnostics findings, const std::vector<std::string>& skipped) {
   for (Diagnostic& finding : findings) {
     const bool named = std::find(skipped.begin(), skipped.end(), finding.where.face_id) != skipped.end();

@@ -21,7 +21,7 @@ struct Fault {
   std::string message;
 };
 
-// What the user says of the control is no fault of the program.
+// True if the user has stated it of the control: then the program owes no word for it.
 bool IsStatedByUser(std::string_view code, const Dialect& dialect) {
   if (code == "LENGTH_OFFSET_ASSUMED") return !dialect.length_offset;
   return code == "CONTROL_DEVIATION_ASSUMED" || code == "MACHINE_Z_ASSUMED" || code == "WORD_EXPLAINED" ||
@@ -76,13 +76,9 @@ class WordCheck {
   std::optional<Fault> FirstFault(std::string_view text) {
     ProgramLines lines(dialect_);
     int line = 0;
-    for (std::size_t begin = 0; begin < text.size() && !lines.ended();) {
-      const std::size_t end = std::min(text.find('\n', begin), text.size());
-      std::string_view code = text.substr(begin, end - begin);
-      begin = end + 1;
+    while (!text.empty() && !lines.ended()) {
       ++line;
-      if (!code.empty() && code.back() == '\r') code.remove_suffix(1);
-      const auto block = lines.Read(code);
+      const auto block = lines.Read(TakeLine(text));
       if (!block.ok() || !block->has_value()) continue;
       if (std::optional<Fault> fault = FaultOf(**block, line)) return fault;
     }
@@ -124,7 +120,7 @@ class WordCheck {
   bool g94_ = false, g40_ = false, g80_ = false, feeds_ = false;
 };
 
-// What is wrong with a program of the job, its path apart.
+// The faults of a program of the job beside its path.
 std::vector<Fault> FaultsOf(std::string_view text, const ProgramMotion& motion, const Job& job) {
   const Dialect& dialect = job.dialect;
   const Tool& tool = job.operation.tool;
@@ -174,7 +170,7 @@ std::vector<Fault> FaultsOf(std::string_view text, const ProgramMotion& motion, 
   return faults;
 }
 
-// What is wrong with the start at a restart point; empty if nothing is.
+// The fault of a start at a restart point; empty if there is none.
 std::string FaultOfStart(const std::string& text, const absl::StatusOr<ProgramMotion>& tail, const Job& job) {
   if (!tail.ok())
     return fmt::format("it cannot be read: {}", WithoutLine(std::string(tail.status().message())));

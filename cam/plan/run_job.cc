@@ -30,6 +30,7 @@
 #include "cam/plan/region_steps.h"
 #include "cam/plan/resolve.h"
 #include "cam/plan/unused_settings.h"
+#include "cam/post/program_lines.h"
 #include "cam/post/program_reader.h"
 #include "cam/region/split_regions.h"
 #include "cam/toolpath/fit_arcs.h"
@@ -274,12 +275,8 @@ std::string NamedLine(std::string_view text, std::string_view message) {
   if (message.substr(0, kLine.size()) != kLine) return "";
   if (!absl::SimpleAtoi(std::string(message.substr(kLine.size(), message.find(':') - kLine.size())), &number))
     return "";
-  for (int line = 1; line < number; ++line) {
-    const std::size_t end = text.find('\n');
-    if (end == text.npos) return "";
-    text.remove_prefix(end + 1);
-  }
-  return fmt::format(" in \"{}\"", text.substr(0, std::min(text.find_first_of("\r\n"), std::size_t{80})));
+  for (int line = 1; line < number; ++line) TakeLine(text);
+  return fmt::format(" in \"{}\"", TakeLine(text).substr(0, 80));
 }
 
 // A post file of the user's own may write what the reader does not know.

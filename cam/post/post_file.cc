@@ -122,6 +122,13 @@ absl::Status ReadUnit(std::string_view value, std::string& out) {
   return ReadText(value, out);
 }
 
+// A line that switches the coolant on.
+absl::Status ReadCoolant(std::string_view value, std::string& out) {
+  if (value.find("M9") != std::string_view::npos || value.find("M09") != std::string_view::npos)
+    return Bad(fmt::format("= {}; M9 switches the coolant off", Quoted(value)));
+  return ReadPathTemplate(value, false, out);
+}
+
 using Reader = std::function<absl::Status(std::string_view, Dialect&)>;
 
 // All keys by "section.key".
@@ -188,9 +195,9 @@ const std::map<std::string, Reader, std::less<>>& Keys() {
        }},
       {"arcs.centre",
        [](View v, Dialect& d) { return ReadChoice(v, "modal", "start", d.arcs.center_from_start); }},
-      {"coolant.flood", [](View v, Dialect& d) { return ReadPathTemplate(v, false, d.flood_on); }},
-      {"coolant.mist", [](View v, Dialect& d) { return ReadPathTemplate(v, false, d.mist_on); }},
-      {"coolant.air", [](View v, Dialect& d) { return ReadPathTemplate(v, false, d.air_on); }},
+      {"coolant.flood", [](View v, Dialect& d) { return ReadCoolant(v, d.flood_on); }},
+      {"coolant.mist", [](View v, Dialect& d) { return ReadCoolant(v, d.mist_on); }},
+      {"coolant.air", [](View v, Dialect& d) { return ReadCoolant(v, d.air_on); }},
   };
   return *keys;
 }

@@ -1,5 +1,7 @@
 #include "cam/post/program_lines.h"
 
+#include <algorithm>
+
 #include "cam/post/siemens_block.h"
 #include "core/base/status.h"
 
@@ -37,6 +39,13 @@ absl::StatusOr<std::optional<BlockModes>> ProgramLines::ReadGcode(std::string_vi
   if (block_.words.empty()) return std::nullopt;
   begun_ = numbered_ = true;
   return SortModes(block_, dialect_);
+}
+
+std::string_view TakeLine(std::string_view& text) {
+  std::string_view line = text.substr(0, text.find('\n'));
+  text.remove_prefix(std::min(line.size() + 1, text.size()));
+  if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
+  return line;
 }
 
 }  // namespace patchmill

@@ -12,6 +12,9 @@
 
 namespace patchmill {
 
+// Takes the first line off a text, and returns it without its end ("\n" or "\r\n").
+std::string_view TakeLine(std::string_view& text);
+
 class ProgramLines {
  public:
   // Keeps a reference.

@@ -621,13 +621,10 @@ absl::StatusOr<ProgramMotion> ReadProgram(std::string_view text, const ReaderPar
   Interpreter interpreter(params);
   ProgramLines lines(params.dialect);
   int line = 0;
-  for (std::size_t begin = 0; begin < text.size() && !interpreter.ended() && !lines.ended();) {
-    const std::size_t end = std::min(text.find('\n', begin), text.size());
-    std::string_view code = text.substr(begin, end - begin);
-    begin = end + 1;
+  while (!text.empty() && !interpreter.ended() && !lines.ended()) {
+    const std::string_view code = TakeLine(text);
     ++line;
     if (params.run != nullptr && line % kLinesBetweenPolls == 0) PM_RETURN_IF_ERROR(params.run->Check());
-    if (!code.empty() && code.back() == '\r') code.remove_suffix(1);
     if (code.size() > params.max_line_length) {
       return AtLine(line, Bad(fmt::format("longer than {} characters", params.max_line_length)));
     }

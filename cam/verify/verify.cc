@@ -166,15 +166,13 @@ class Verifier {
     // The control's own smoothing may deepen each gouge [verification P1].
     const double smoothing = motion_.controller_tolerance;
     const bool bounded = std::isfinite(smoothing);
-    // Places where the smoothing alone could gouge would be everywhere: then the path as programmed is
-    // judged.
+    // Without a bound every place could be gouged. Then the path as it is programmed is judged.
     p.limit = bounded ? std::max(0.0, params_.tolerance - smoothing) : params_.tolerance;
     if (!bounded) {
       Report("CONTROL_SMOOTHING",
              "no word says how far the control may leave the path, so nothing bounds its gouges: state a "
-             "tolerance or "
-             "exact stop in the program, in the words of the control, or how far the control leaves the path "
-             "(--control-deviation)");
+             "tolerance or exact stop in the program, in the words of the control, or how far the control "
+             "leaves the path (--control-deviation)");
     }
     const SegmentTree tree(CollectMoves(motion_, MotionSet::kSwept, offset_), Metric::kSwept, radius_, run_);
     PM_ASSIGN_OR_RETURN(const Extremes gouge, FindGouge({surface_, roots_}, tree, p, run_, "verify: gouge"));

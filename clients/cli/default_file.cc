@@ -102,7 +102,7 @@ absl::StatusOr<std::vector<std::string>> WithDefaults(const CLI::App& app,
   for (const CLI::App* command : Commands(app)) {
     if (!arguments.empty() && arguments.front() == command->get_name()) chosen = command;
   }
-  // What stands in the section of the command goes before what stands above all sections.
+  // Options of the section of the command go before those above all sections.
   std::stable_partition(items.begin(), items.end(),
                         [](const CLI::ConfigItem& item) { return !item.parents.empty(); });
   std::vector<std::string> more;

@@ -72,7 +72,7 @@ bool ReadFinite(const std::string& text, double& value);
 // Reads "X,Y,Z". INVALID_ARGUMENT names the option.
 absl::StatusOr<v1::Point3> ReadPoint(const std::string& text, const char* option);
 
-// How a model file is read.
+// The options for reading a model file.
 struct ReadingOptions {
   std::string length_unit;  // of formats that state none: "mm", "inch", "m"; empty: not stated
   std::optional<double> border_tolerance;

@@ -1,4 +1,4 @@
-// How `--help` lists the options of a command: by what they are about.
+// Groups the options of a command for `--help`: part, tool, finish and so on.
 #pragma once
 
 #include <CLI/CLI.hpp>

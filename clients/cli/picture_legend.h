@@ -1,4 +1,4 @@
-// What stands beside the part in a picture: its name and size, the meaning of colours and lines, a scale in
+// Draws the legend of a picture: name and size of the part, the meaning of colours and lines, a scale in
 // mm and the axes.
 #pragma once
 

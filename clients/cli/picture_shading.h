@@ -1,4 +1,4 @@
-// How a picture shades the part, and the legend of the shading: the same shadings as in the 3-D page.
+// Chooses the colours of the part in a picture, and their legend: the shadings are those of the 3-D page.
 #pragma once
 
 #include <map>

@@ -88,8 +88,10 @@ class StoppedInput final : public google::protobuf::io::ZeroCopyInputStream {
   bool stopped_ = false;
 };
 
-// The message in a field of this message, by the beginning of a path: "patches[0].bezier". Empty: the message itself.
-const google::protobuf::Descriptor* MessageAt(const google::protobuf::Descriptor* message, std::string_view path) {
+// The message in a field of this message, by the beginning of a path: "patches[0].bezier". Empty: the
+// message itself.
+const google::protobuf::Descriptor* MessageAt(const google::protobuf::Descriptor* message,
+                                              std::string_view path) {
   while (message != nullptr && !path.empty()) {
     const std::size_t dot = std::min(path.find('.'), path.size());
     const std::string name(path.substr(0, std::min(path.find('['), dot)));
@@ -101,8 +103,8 @@ const google::protobuf::Descriptor* MessageAt(const google::protobuf::Descriptor
   return message;
 }
 
-// "; did you mean degree_u?" for protobuf's complaint "(patches[0].bezier) degre_u: Cannot find field."; empty if
-// nothing is near.
+// " Did you mean degree_u?" for protobuf's complaint "(patches[0].bezier) degre_u: Cannot find field.", or
+// the list of all fields if none is near. Empty for any other complaint.
 std::string NearField(const google::protobuf::Descriptor* message, std::string_view complaint) {
   constexpr std::string_view kEnd = ": Cannot find field.";
   if (complaint.size() < kEnd.size() || complaint.substr(complaint.size() - kEnd.size()) != kEnd) return "";

@@ -2,7 +2,7 @@
 # Fails when a source file is not formatted as .clang-format says. usage: format.sh ROOT [--fix]
 set -euo pipefail
 cd "$1"
-mapfile -t files < <(find core cam server clients tests -name '*.h' -o -name '*.cc' | sort)
+mapfile -t files < <(find core cam server clients import proto tests -name '*.h' -o -name '*.cc' | sort)
 [ "${#files[@]}" -gt 0 ] || { echo "format: no files found"; exit 1; }
 if [ "${2:-}" = --fix ]; then
   clang-format-14 -i "${files[@]}"

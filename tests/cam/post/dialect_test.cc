@@ -481,6 +481,8 @@ TEST(OwnPostFile, FaultsHaveTheirLine) {
     EXPECT_THAT(with("M51 = none", word + " = none"),
                 HasSubstr("line 16: " + word + " moves the tool, calls a program or changes coordinates"));
   }
+  EXPECT_THAT(with("flood = M50", "flood = M9"),
+              HasSubstr("line 13: flood: = \"M9\"; M9 switches the coolant off"));
   EXPECT_THAT(with("T{tool}", "/T{tool}"), HasSubstr("a line with / may be skipped"));
   EXPECT_EQ(with("[end]", "[begin]"), "line 27: [begin] is given twice");
   EXPECT_THAT(with("name = shop", "name =\tshop"), HasSubstr("byte 0x09: only printable ASCII"));
