@@ -263,6 +263,21 @@ class Errors(InDocument):
         self.changed(made, ProgramFile=str(self.folder / "none" / "part.ngc"))
         self.fails(made, "ProgramFile", "cannot be written")
 
+    def test_a_file_of_somebody_else_is_never_replaced(self):
+        made = self.operation(self.filleted_box())
+        for name in ("ProgramFile", "ReportFile", "PageFile", "ModelFile"):
+            with self.subTest(name):
+                theirs = self.folder / f"{name}.txt"
+                theirs.write_text("a list of tools\n")
+                self.changed(made, **{name: str(theirs)})
+                self.fails(made, name, "no result of Patchmill")
+                self.assertEqual(theirs.read_text(), "a list of tools\n")
+                # A result of before is replaced.
+                ours = self.folder / f"{name}.ours"
+                for _ in range(2):
+                    self.changed(made, **{name: str(ours)}, Scallop=made.Scallop * 1.1)
+                    self.assertTrue(ours.is_file(), made.Outcome)
+
     def test_a_job_without_a_program(self):
         made = self.operation(self.filleted_box())
         self.changed(made, StockKind="Block", BlockMargin=4, StockIsWhole=True)

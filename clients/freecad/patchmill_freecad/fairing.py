@@ -12,6 +12,7 @@ import patchmill as pm
 from . import console, properties, service
 from .options import RESULT, Option
 from .problem import Problem
+from .proxy import Proxy
 
 FAIR = "Fairing"
 FEWEST_POINTS = 4
@@ -47,25 +48,11 @@ def points_of(source: Any) -> list[Any]:
     return [vertex.Point for vertex in (wires[0].OrderedVertexes if wires else placed.Vertexes)]
 
 
-class FairedCurve:
+class FairedCurve(Proxy):
     """Proxy of PatchmillFairedCurve."""
 
-    def __init__(self, document_object: Any) -> None:
-        document_object.Proxy = self
+    def _add_properties(self, document_object: Any) -> None:
         properties.add(document_object, OPTIONS)
-
-    def onDocumentRestored(self, document_object: Any) -> None:  # noqa: N802: FreeCAD's name
-        document_object.Proxy = self
-        properties.add(document_object, OPTIONS)
-
-    def dumps(self) -> None:
-        return None
-
-    def loads(self, state: Any) -> None:
-        return None
-
-    __getstate__ = dumps
-    __setstate__ = loads
 
     def execute(self, document_object: Any) -> None:
         try:

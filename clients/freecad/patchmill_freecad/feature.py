@@ -17,38 +17,21 @@ from .job import Links, Values
 from .moves import Command, commands
 from .options import RESULT, Option
 from .problem import Problem
+from .proxy import Proxy
 
 CHORD_PART = 0.05  # of the tolerance: how far chords in the tree leave the arcs of the program
 
 
-class Feature:
+class Feature(Proxy):
     """The proxy of a document object whose Path is that of a program."""
 
     OPTIONS: tuple[Option, ...] = ()
-
-    def __init__(self, document_object: Any) -> None:
-        document_object.Proxy = self
-        self._add_properties(document_object)
 
     def _add_properties(self, document_object: Any) -> None:
         properties.add(document_object, self.OPTIONS)
         if "Inputs" not in document_object.PropertiesList:
             document_object.addProperty("App::PropertyString", "Inputs", RESULT, "Digest of what the result was computed from")
             document_object.setEditorMode("Inputs", 2)
-
-    def onDocumentRestored(self, document_object: Any) -> None:  # noqa: N802: FreeCAD's name
-        document_object.Proxy = self
-        self._add_properties(document_object)
-
-    # The proxy keeps nothing: all is in properties. The names are those of FreeCAD 0.20 and of 1.0.
-    def dumps(self) -> None:
-        return None
-
-    def loads(self, state: Any) -> None:
-        return None
-
-    __getstate__ = dumps
-    __setstate__ = loads
 
     def execute(self, document_object: Any) -> None:
         """Computes the object if anything has changed. Whatever goes wrong is a message, never a

@@ -7,7 +7,7 @@ from typing import Any
 
 import FreeCAD as App
 
-from . import cam_job, console, model, progress, service
+from . import cam_job, console, model, output, progress, service
 from .feature import Feature, file_beside
 from .job import JobRequest, Links, Values, job_request
 from .moves import Command
@@ -27,11 +27,11 @@ class Operation(Feature):
                                        progress=bar)
         self._show(document_object, result, values, _header(document_object, request))
         if values["ModelFile"]:
-            _write(pathlib.Path(values["ModelFile"]), body.step, "ModelFile")
+            output.write(pathlib.Path(values["ModelFile"]), body.step, "ModelFile")
         if values["ReportFile"]:
-            _write(pathlib.Path(values["ReportFile"]), result.report_json().encode(), "ReportFile")
+            output.write(pathlib.Path(values["ReportFile"]), result.report_json().encode(), "ReportFile")
         if values["PageFile"]:
-            _write(pathlib.Path(values["PageFile"]), result.page().encode(), "PageFile")
+            output.write(pathlib.Path(values["PageFile"]), result.page().encode(), "PageFile")
         file = program_file(document_object, values)
         if not result.has_program:
             self._say_stale(document_object, file)
@@ -42,7 +42,7 @@ class Operation(Feature):
                             "mark the operation to recompute.")
             document_object.WrittenFile = ""
             return
-        _write(file, result.program_bytes, "ProgramFile")
+        output.write(file, result.program_bytes, "ProgramFile")
         document_object.WrittenFile = str(file)
         console.message(f"{document_object.Label}: program {file}")
 
@@ -71,14 +71,6 @@ def program_file(document_object: Any, values: Values) -> pathlib.Path | None:
         return pathlib.Path(values["ProgramFile"])
     label = "".join("_" if letter in '/\\:*?"<>|' else letter for letter in document_object.Label)
     return file_beside(document_object.Document, label + DIALECTS.get(values["Dialect"], ".nc"))
-
-
-def _write(file: pathlib.Path, content: bytes, what: str) -> None:
-    try:
-        file.write_bytes(content)
-    except OSError as error:
-        raise Problem(f"{what} '{file}' cannot be written ({error.strerror}): choose a folder that is there and may be written "
-                      "to.") from None
 
 
 def _header(document_object: Any, request: JobRequest) -> list[Command]:

@@ -8,7 +8,7 @@ from typing import Any
 
 import FreeCAD as App
 
-from . import cam_job, console, model, progress, service
+from . import cam_job, console, model, output, progress, service
 from .feature import Feature
 from .job import Links, Values, verification_arguments
 from .options import VERIFICATION
@@ -43,9 +43,9 @@ class Verification(Feature):
         result = service.client().verify(body.model(name, request.import_options), program, tool, progress=bar, **arguments)
         self._show(document_object, result, values, [])
         if values["ReportFile"]:
-            pathlib.Path(values["ReportFile"]).write_text(result.report_json())
+            output.write(pathlib.Path(values["ReportFile"]), result.report_json().encode(), "ReportFile")
         if values["PageFile"]:
-            result.save_page(values["PageFile"])
+            output.write(pathlib.Path(values["PageFile"]), result.page().encode(), "PageFile")
         if not result.is_good:
             console.error(f"{document_object.Label}: do not run {values['ProgramFile']}: {result.outcome.name}.")
 
