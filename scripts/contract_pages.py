@@ -11,7 +11,7 @@ import json
 import pathlib
 from typing import Any
 
-from contract.calls import Types, call, refusal, server
+from contract.calls import Types, call, documents_in, refusal, server
 from contract.descriptors import Contract, descriptor_set, read_contract
 from contract.markup import Links, Names
 from contract.other_pages import error_types, errors_page, index_page, types_page, types_without_rpc
@@ -76,7 +76,7 @@ def write_pages(out: pathlib.Path, program: pathlib.Path | None) -> None:
     for rpc in contract.rpcs:
         text = requests[rpc.name]
         name = f"{rpc.name}.html"
-        example = Example(text, json.loads(text), answers.get(rpc.name))
+        example = Example(text, documents_in(text)[0], answers.get(rpc.name))
         written[name] = rpc_page(contract, rpc, names, sections, links_of(name, pages, contract), example)
     written["errors.html"] = errors_page(contract, sections, links_of("errors.html", pages, contract), error)
     written["types.html"] = types_page(contract, sections, links_of("types.html", pages, contract))

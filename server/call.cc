@@ -9,26 +9,30 @@
 
 #include <fmt/format.h>
 
+#include "core/base/polled_run.h"
+#include "core/base/status.h"
+#include "server/errors.h"
+#include "server/job_progress.h"
 #include "server/limits.h"
+#include "server/lower_priority.h"
 
 namespace patchmill {
 namespace {
 
 using Clock = RunContext::Clock;
 
-// The newest progress and the result. The worker thread writes them, the thread of the call reads them.
+// The result. The worker thread writes it, the thread of the call reads it.
 struct Board {
   std::mutex mutex;
   std::condition_variable changed;
-  std::string stage;
-  double fraction = 0.0;
   bool done = false;
   absl::Status status;
 };
 
-absl::Status Guarded(const std::function<absl::Status(const RunContext&)>& work, const RunContext& run) {
+absl::Status Guarded(const std::function<absl::Status(const RunContext&)>& body, const RunContext& run) {
+  const PolledRun counted(run);  // counts the memory of what is computed between parallel loops
   try {
-    return work(run);
+    return body(run);
   } catch (const std::bad_alloc&) {
     return absl::ResourceExhaustedError("the job needs more memory than there is");
   } catch (const std::exception& e) {
@@ -67,20 +71,77 @@ class WorkerGuard {
   std::thread thread_;
 };
 
-}  // namespace
+bool Ended(const Call& call) { return call.cancelled() || call.env->stopped.load(); }
 
-absl::Status RunJobThread(const Call& call, int max_threads, const Beat& beat,
-                          const std::function<absl::Status(const RunContext&)>& work) {
+absl::StatusOr<Places::Ticket> Enter(Places& places, const Call& call, const Work& work,
+                                     JobProgress& progress) {
+  bool listens = true;
+  Clock::time_point next_beat = Clock::now();
+  Places::Waiting waiting;
+  waiting.caller = call.caller;
+  waiting.poll = std::chrono::milliseconds(limits::kCancelPollMs);
+  waiting.gone = [&] { return !listens || Ended(call) || Clock::now() >= Deadline(call); };
+  waiting.on_place = [&](int place) {
+    progress.Queue(place);
+    if (!work.beat || Clock::now() < next_beat) return;
+    next_beat = Clock::now() + std::chrono::milliseconds(limits::kHeartbeatMs);
+    listens = work.beat(progress.Now());
+  };
+  const Clock::time_point deadline = Deadline(call);
+  absl::StatusOr<Places::Ticket> place = places.Enter(waiting);
+  if (absl::IsCancelled(place.status())) {
+    if (call.env->stopped.load()) return DrainingError();
+    if (Clock::now() >= deadline) return absl::DeadlineExceededError("the deadline passed in the queue");
+  }
+  return place;
+}
+
+// The memory of one call, and its share of the ledger.
+class Memory {
+ public:
+  explicit Memory(MemoryLedger& ledger)
+      : ledger_(ledger), budget_(0, [this](std::int64_t bytes) { return Take(bytes); }) {}
+  ~Memory() { ledger_.Release(taken_); }
+  Memory(const Memory&) = delete;
+  Memory& operator=(const Memory&) = delete;
+
+  absl::Status Start(std::int64_t estimate) {
+    if (estimate > ledger_.limit()) {
+      return LimitError("estimated_job_memory_bytes", static_cast<double>(ledger_.limit()),
+                        static_cast<double>(estimate));
+    }
+    if (budget_.Fits(estimate)) return absl::OkStatus();
+    return TooMuchMemoryError(static_cast<double>(ledger_.limit()), static_cast<double>(ledger_.taken()),
+                              static_cast<double>(estimate));
+  }
+  MemoryBudget& budget() { return budget_; }
+
+ private:
+  bool Take(std::int64_t bytes) {
+    if (!ledger_.Take(bytes)) return false;
+    taken_ += bytes;
+    return true;
+  }
+
+  MemoryLedger& ledger_;
+  std::int64_t taken_ = 0;  // the budget asks one call at a time
+  MemoryBudget budget_;
+};
+
+enum class Priority { kNormal, kLow };
+
+absl::Status RunInThread(const Call& call, const Work& work, JobProgress& progress, Priority priority,
+                         const std::function<absl::Status(const RunContext&)>& body) {
+  Memory memory(call.env->memory);
+  PM_RETURN_IF_ERROR(memory.Start(work.memory_bytes));
   Board board;
-  RunContext run(Threads(call.env->options.threads, max_threads));
+  RunContext run(Threads(call.env->options.threads, work.max_threads));
   run.set_deadline(Deadline(call));
-  run.set_progress([&board](std::string_view stage, double fraction) {
-    const std::lock_guard<std::mutex> lock(board.mutex);
-    board.stage = stage;
-    board.fraction = std::clamp(fraction, 0.0, 1.0);
-  });
+  run.set_budget(&memory.budget());
+  run.set_progress([&progress](std::string_view step, double fraction) { progress.Step(step, fraction); });
   WorkerGuard worker(run, [&] {
-    absl::Status status = Guarded(work, run);
+    if (call.env->options.lower_priority_of_jobs && priority == Priority::kLow) LowerPriorityOfThread();
+    absl::Status status = Guarded(body, run);
     const std::lock_guard<std::mutex> lock(board.mutex);
     board.status = std::move(status);
     board.done = true;
@@ -92,21 +153,60 @@ absl::Status RunJobThread(const Call& call, int max_threads, const Beat& beat,
   while (!board.done) {
     board.changed.wait_for(lock, std::chrono::milliseconds(limits::kCancelPollMs));
     if (board.done) break;
-    if (call.cancelled()) run.Cancel();
-    if (!beat || run.Cancelled() || Clock::now() < next_beat) continue;
+    if (Ended(call)) run.Cancel();
+    if (!work.beat || run.Cancelled() || Clock::now() < next_beat) continue;
     next_beat = Clock::now() + std::chrono::milliseconds(limits::kHeartbeatMs);
-    const std::string stage = board.stage;
-    const double fraction = board.fraction;
     lock.unlock();  // a slow reader must not delay the work
-    if (!beat(stage, fraction)) run.Cancel();
+    if (!work.beat(progress.Now())) run.Cancel();
     lock.lock();
   }
   lock.unlock();
   worker.Join();
+  if (memory.budget().Exceeded()) {
+    return JobMemoryError(static_cast<double>(memory.budget().granted()),
+                          static_cast<double>(memory.budget().used()));
+  }
+  if (call.env->stopped.load() && !board.status.ok()) return DrainingError();
   // A cancel counts even if the work finished at the same time.
   if (call.cancelled()) run.Cancel();
   const absl::Status late = run.Check();
   return late.ok() ? board.status : late;
+}
+
+}  // namespace
+
+ServerEnv::ServerEnv(const ServerOptions& given, ReceivedBytes received, std::unique_ptr<DiskCache> disk)
+    : options(given),
+      shares(ShareMemory(given.memory_limit_mib > 0 ? std::int64_t{given.memory_limit_mib} << 20
+                                                    : DefaultMemoryLimit(),
+                         std::int64_t{given.max_in_flight_mib} << 20, std::int64_t{given.store_mib} << 20)),
+      quick(limits::kQuickPlaces, limits::kMaxQueue),
+      jobs(given.max_jobs > 0 ? given.max_jobs
+                              : static_cast<int>(std::max(1u, std::thread::hardware_concurrency())),
+           given.max_queue),
+      in_flight(static_cast<std::size_t>(shares.in_flight), std::move(received)),
+      memory(shares.jobs),
+      store(static_cast<std::size_t>(shares.store)),
+      answers(store, std::move(disk)),
+      running([this](const StoreKey& key, const std::string& from,
+                     Messages messages) { answers.Put(key, from, std::move(messages)); },
+              memory, given.orphan_seconds) {}
+
+ModelAccess ModelsOf(const Call& call) { return {&call.env->in_flight, &call.env->store, call.caller}; }
+
+absl::Status RunQuickCall(const Call& call, const Work& work,
+                          const std::function<absl::Status(const RunContext&)>& body) {
+  JobProgress progress;
+  PM_ASSIGN_OR_RETURN(const Places::Ticket place, Enter(call.env->quick, call, work, progress));
+  return RunInThread(call, work, progress, Priority::kNormal, body);
+}
+
+absl::Status RunJobCall(const Call& call, const Work& work,
+                        const std::function<absl::Status(const RunContext&)>& body) {
+  JobProgress progress;
+  PM_ASSIGN_OR_RETURN(const Places::Ticket place, Enter(call.env->jobs, call, work, progress));
+  progress.Queue(0);
+  return RunInThread(call, work, progress, Priority::kLow, body);
 }
 
 absl::Status CheckThreads(int max_threads, std::string_view field) {

@@ -14,6 +14,7 @@ namespace patchmill {
 namespace {
 
 constexpr char kInfoUrl[] = "type.googleapis.com/patchmill.v1.ErrorInfo";
+constexpr char kRetryUrl[] = "type.googleapis.com/google.rpc.RetryInfo";
 constexpr std::size_t kMaxViolationBytes = 300;
 
 std::string Cut(std::string text, std::size_t bytes) {
@@ -115,14 +116,33 @@ absl::Status LimitError(std::string_view limit, double limit_value, double actua
                                 note.empty() ? "" : "; ", note));
 }
 
-absl::Status TooManyJobsError(int limit) {
+absl::Status TooManyJobsError(int jobs, int waiting) {
   v1::ErrorInfo info;
   info.set_reason("TOO_MANY_JOBS");
-  info.set_limit("concurrent_jobs");
-  info.set_limit_value(limit);
-  info.set_actual_value(limit + 1);
+  info.set_limit("waiting_jobs");
+  info.set_limit_value(waiting);
+  info.set_actual_value(waiting + 1);
   return WithInfo(absl::StatusCode::kResourceExhausted,
-                  fmt::format("the server runs {} jobs, as many as it may; try again later", limit), info);
+                  fmt::format("the server runs {} jobs and {} wait, as many as may; try again later", jobs, waiting),
+                  info);
+}
+
+absl::Status TooMuchMemoryError(double limit, double taken, double wanted) {
+  v1::ErrorInfo info;
+  info.set_reason("TOO_MUCH_MEMORY");
+  info.set_limit("memory_of_all_jobs_bytes");
+  info.set_limit_value(limit);
+  info.set_actual_value(taken + wanted);
+  return WithInfo(absl::StatusCode::kResourceExhausted,
+                  fmt::format("the job needs about {:.0f} MiB; the jobs that run have {:.0f} of {:.0f} MiB; try again "
+                              "later",
+                              wanted / 1048576.0, taken / 1048576.0, limit / 1048576.0),
+                  info);
+}
+
+absl::Status JobMemoryError(double granted, double used) {
+  return LimitError("job_memory_bytes", granted, used,
+                    "the job was ended because it needs more memory than the server has for it");
 }
 
 absl::Status TooManyBytesError(double limit, double actual, std::string_view name) {
@@ -148,7 +168,7 @@ absl::Status DrainingError() {
 
 absl::Status ModelNotCachedError() {
   return WithReason(absl::StatusCode::kNotFound, "MODEL_NOT_CACHED",
-                    "source.model_sha256 names a model this server does not hold; send it inline");
+                    "source.model_sha256 names a model that this server does not hold; upload it, or send it inline");
 }
 
 absl::Status ModelUnreadableError(std::string_view why, std::string_view code) {
@@ -207,11 +227,31 @@ grpc::Status ToGrpcStatus(const absl::Status& status) {
   wire.set_code(static_cast<int>(status.code()));
   wire.set_message(CutMessage(std::string(status.message())));
   wire.add_details()->PackFrom(info);
+  if (const auto delay = RetryDelay(status)) {
+    v1::RetryInfo retry;
+    retry.mutable_retry_delay()->set_seconds(delay->count() / 1000);
+    retry.mutable_retry_delay()->set_nanos(static_cast<int>(delay->count() % 1000) * 1'000'000);
+    google::protobuf::Any& any = *wire.add_details();
+    any.set_type_url(kRetryUrl);
+    any.set_value(retry.SerializeAsString());
+  }
   while (wire.ByteSizeLong() > limits::kMaxStatusBytes && info.field_violations_size() > 0) {
     info.mutable_field_violations()->RemoveLast();
     wire.mutable_details(0)->PackFrom(info);
   }
   return {static_cast<grpc::StatusCode>(status.code()), wire.message(), wire.SerializeAsString()};
+}
+
+std::optional<std::chrono::milliseconds> RetryDelay(const absl::Status& status) {
+  const auto payload = status.GetPayload(kInfoUrl);
+  v1::ErrorInfo info;
+  if (!payload || !info.ParseFromString(std::string(*payload))) return std::nullopt;
+  constexpr std::pair<std::string_view, int> kDelays[] = {
+      {"TOO_MANY_JOBS", 2000}, {"TOO_MANY_BYTES", 1000}, {"TOO_MUCH_MEMORY", 2000}, {"DRAINING", 1000}};  // ms
+  for (const auto& [reason, delay] : kDelays) {
+    if (info.reason() == reason) return std::chrono::milliseconds(delay);
+  }
+  return std::nullopt;
 }
 
 std::string Utf8(std::string_view text) {

@@ -2,6 +2,8 @@
 // too.
 #pragma once
 
+#include <chrono>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -37,11 +39,16 @@ class FieldErrors {
 // `note` is added to the message where the value alone would not explain the error.
 absl::Status LimitError(std::string_view limit, double limit_value, double actual_value,
                         std::string_view note = {});
-absl::Status TooManyJobsError(int limit);
+// `jobs` run and `waiting` wait, as many as may.
+absl::Status TooManyJobsError(int jobs, int waiting);
 // `actual` includes the requested bytes. `name` is that of the limit.
 absl::Status TooManyBytesError(double limit, double actual,
                                std::string_view name = "request_bytes_in_flight");
+// A job for which there is no memory while others have it. All in bytes.
+absl::Status TooMuchMemoryError(double limit, double taken, double wanted);
 absl::Status DrainingError();
+// A job that has taken more memory than it could be granted.
+absl::Status JobMemoryError(double granted, double used);
 // The bytes of the request do not form a message of its type.
 absl::Status RequestUnreadableError(std::string_view why);
 absl::Status ModelNotCachedError();
@@ -57,8 +64,11 @@ absl::Status ModelInvalidError(const Diagnostics& faults, std::string_view at);
 absl::Status InJob(const absl::Status& status);
 
 // The status as gRPC sends it. The message has at most 1,000 bytes; the details (v1.Status with one
-// v1.ErrorInfo) are smaller than 4 KiB.
+// v1.ErrorInfo, and a RetryInfo where RetryDelay is known) are smaller than 4 KiB.
 grpc::Status ToGrpcStatus(const absl::Status& status);
+
+// The time after which the same call may succeed; nothing where nobody knows.
+std::optional<std::chrono::milliseconds> RetryDelay(const absl::Status& status);
 
 // Makes text that may come from a file valid UTF-8 for the wire: all other bytes become '?'.
 std::string Utf8(std::string_view text);

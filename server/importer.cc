@@ -279,4 +279,11 @@ absl::StatusOr<Imported> ImportFileWith(const std::string& program, std::string_
   return DeathOf(status, params.format);
 }
 
+std::string ImporterStamp() {
+  const std::string importer = ImporterPath();
+  std::error_code missing;
+  const auto written = std::filesystem::last_write_time(importer, missing);
+  return missing ? std::string() : fmt::format("{} {}", importer, written.time_since_epoch().count());
+}
+
 }  // namespace patchmill

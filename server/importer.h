@@ -45,5 +45,7 @@ absl::StatusOr<Imported> ImportFileWith(const std::string& program, std::string_
                                         InFlight* in_flight = nullptr);
 // Where the importer is looked for.
 std::string ImporterPath();
+// Changes when the importer is replaced by another version. Empty if there is none.
+std::string ImporterStamp();
 
 }  // namespace patchmill

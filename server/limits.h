@@ -11,7 +11,11 @@ inline constexpr std::size_t kMaxSmallMessageBytes = 4096;              // reque
 inline constexpr int kMaxInFlightMib = 256;  // default: MiB of requests and answers at once
 inline constexpr std::size_t kMaxFileModelBytes = std::size_t{256}
                                                   << 20;  // memory of a message in a model file
+inline constexpr std::size_t kMaxUploadBytes = std::size_t{256} << 20;      // of one model file
+inline constexpr std::size_t kMaxKeptAnswerBytes = std::size_t{64} << 20;   // of an answer that is kept whole
+inline constexpr std::size_t kAnswerAheadBytes = std::size_t{4} << 20;      // that a job is ahead of its readers
 inline constexpr int kReceiveSeconds = 300;         // from the start of a call until its request has arrived
+inline constexpr int kUploadSeconds = 900;          // from the start of an upload until its last byte
 inline constexpr int kMeasureMs = 10;               // requests on their way are measured this often
 inline constexpr int kMaxCallsPerConnection = 100;  // at once; further calls wait at the client
 inline constexpr int kMaxConnections = 10'000;      // open at once; fewer if there are fewer descriptors
@@ -49,6 +53,8 @@ inline constexpr std::size_t kMaxRequestIdBytes = 128;
 // Jobs.
 inline constexpr int kMaxThreads = 64;            // of one job
 inline constexpr int kMaxJobs = 64;               // of one server at once
+inline constexpr int kQuickPlaces = 8;            // calls at once that are no jobs
+inline constexpr int kMaxQueue = 1000;            // calls that wait, of each kind
 inline constexpr double kMaxJobSeconds = 3600.0;  // default of the server
 // Limits of the passes of one plan, counted while they are made, and of the program with its links. A job
 // ends when it exceeds them (cam/toolpath/counted_loop.h), or before its passes are made if no finish could
@@ -75,7 +81,7 @@ inline constexpr int kMaxEvaluations = 200'000;
 // Times of the service.
 inline constexpr int kCancelPollMs = 50;  // a cancel is noticed within this time
 inline constexpr int kHeartbeatMs = 250;  // Progress is sent this often
-inline constexpr int kDrainSeconds = 10;  // from SIGTERM until running calls are ended
+inline constexpr int kAbandonMs = 500;    // from the end of a drain until the server is closed
 
 // Ranges of single fields. Error messages state them.
 inline constexpr double kMinDiameterMm = 0.02, kMaxDiameterMm = 1000.0;

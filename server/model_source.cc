@@ -1,10 +1,12 @@
 #include "server/model_source.h"
 
 #include <algorithm>
+#include <memory>
 
 #include <fmt/format.h>
 #include <google/protobuf/io/zero_copy_stream_impl_lite.h>
 
+#include "core/base/digest.h"
 #include "core/base/error_details.h"
 #include "core/base/status.h"
 #include "core/io/model_text.h"
@@ -291,15 +293,33 @@ absl::Status RefuseImportOptions(const v1::ModelFile& file, std::string_view at)
   return errors.ToStatus();
 }
 
+// Digest of a CAD file, of how it is read, and of the program that reads it.
+std::string ImportDigest(const v1::ModelFile& file, std::string_view format) {
+  Canonical digest;
+  digest.Add("patchmill import 1").Add(format).Add(Sha256(file.content()));
+  digest.Add(file.import_options().SerializeAsString());
+  digest.Add(ImporterStamp());
+  return digest.Digest();
+}
+
 // Loads a STEP or IGES file through the importer. Its answer is checked like any message.
 absl::StatusOr<LoadedModel> LoadCad(const v1::ModelFile& file, std::string_view format, const std::string& at,
-                                    const RunContext& run, InFlight* in_flight) {
+                                    const RunContext& run, const ModelAccess& access) {
   FieldErrors errors;
   if (file.length_unit() != v1::LENGTH_UNIT_UNSPECIFIED)
     errors.Add(At(at, "length_unit"), "must be unset: a CAD file states its own unit");
   const ImportParams params = ReadImportParams(file, format, at, errors);
   PM_RETURN_IF_ERROR(errors.ToStatus());
-  const absl::StatusOr<Imported> imported = ImportFile(file.content(), params, run, in_flight);
+  StoreKey key{Stored::kImport, access.caller, {}};
+  if (access.store != nullptr) {
+    key.digest = ImportDigest(file, format);
+    if (const auto known = access.store->Find<LoadedModel>(key)) {
+      LoadedModel loaded = *known;
+      loaded.path = At(at, "content");
+      return loaded;
+    }
+  }
+  const absl::StatusOr<Imported> imported = ImportFile(file.content(), params, run, access.in_flight);
   if (CodeOf(imported.status()) == "UNKNOWN_FACE") {
     errors.Add(At(at, "import_options.skip_faces"), std::string(imported.status().message()));
     return errors.ToStatus();
@@ -311,6 +331,9 @@ absl::StatusOr<LoadedModel> LoadCad(const v1::ModelFile& file, std::string_view 
   for (const v1::Diagnostic& finding : result.report().findings()) {
     Diagnostic remark = FromProto(finding);
     (remark.severity == Severity::kError ? loaded.faults : loaded.remarks).push_back(std::move(remark));
+  }
+  if (access.store != nullptr && loaded.faults.empty()) {
+    access.store->Put<LoadedModel>(key, std::make_shared<const LoadedModel>(loaded), MemoryOf(loaded.model));
   }
   return loaded;
 }
@@ -346,13 +369,13 @@ absl::Status RequireContent(const v1::ModelFile& file) {
 }
 
 absl::StatusOr<LoadedModel> LoadFile(const v1::ModelFile& file, const std::string& at, const RunContext& run,
-                                     InFlight* in_flight) {
+                                     const ModelAccess& access) {
   PM_RETURN_IF_ERROR(RequireContent(file));
   const std::string_view cad = CadFormat(file.format());
-  if (!cad.empty()) return LoadCad(file, cad, at, run, in_flight);
+  if (!cad.empty()) return LoadCad(file, cad, at, run, access);
   PM_RETURN_IF_ERROR(RefuseImportOptions(file, at));
   if (IsText(file.format())) return LoadText(file, at);
-  PM_ASSIGN_OR_RETURN(const FileMessage message, ParseMessage(file, at, run, in_flight));
+  PM_ASSIGN_OR_RETURN(const FileMessage message, ParseMessage(file, at, run, access.in_flight));
   return LoadMessage(message.model, At(at, "content"), run);
 }
 
@@ -362,15 +385,28 @@ absl::Status NoSource(std::string_view at) {
   return errors.ToStatus();
 }
 
+// The model with that digest that the caller has uploaded.
+absl::StatusOr<std::shared_ptr<const StoredModel>> FindStored(const std::string& digest,
+                                                              const ModelAccess& access) {
+  if (access.store != nullptr) {
+    if (auto stored = access.store->Find<StoredModel>({Stored::kModel, access.caller, digest})) return stored;
+  }
+  return ModelNotCachedError();
+}
+
 absl::StatusOr<LoadedModel> Load(const v1::ModelSource& source, std::string_view at, const RunContext& run,
-                                 InFlight* in_flight) {
+                                 const ModelAccess& access) {
   switch (source.source_case()) {
     case v1::ModelSource::kModel:
       return LoadMessage(source.model(), At(at, "model"), run);
     case v1::ModelSource::kFile:
-      return LoadFile(source.file(), At(at, "file"), run, in_flight);
-    case v1::ModelSource::kModelSha256:
-      return ModelNotCachedError();
+      return LoadFile(source.file(), At(at, "file"), run, access);
+    case v1::ModelSource::kModelSha256: {
+      PM_ASSIGN_OR_RETURN(const auto stored, FindStored(source.model_sha256(), access));
+      LoadedModel loaded = stored->loaded;
+      loaded.path = At(at, "model_sha256");
+      return loaded;
+    }
     case v1::ModelSource::SOURCE_NOT_SET:
       break;
   }
@@ -380,14 +416,15 @@ absl::StatusOr<LoadedModel> Load(const v1::ModelSource& source, std::string_view
 }  // namespace
 
 absl::StatusOr<LoadedModel> LoadModel(const v1::ModelSource& source, std::string_view at,
-                                      const RunContext& run, InFlight* in_flight) {
-  PM_ASSIGN_OR_RETURN(LoadedModel loaded, Load(source, at, run, in_flight));
+                                      const RunContext& run, const ModelAccess& access) {
+  PM_ASSIGN_OR_RETURN(LoadedModel loaded, Load(source, at, run, access));
+  if (!loaded.digest.empty() && source.has_model_sha256()) return loaded;
   loaded.digest = ModelDigest(loaded.model);
   return loaded;
 }
 
 absl::StatusOr<LoadedNetwork> LoadNetwork(const v1::ModelSource& source, std::string_view at,
-                                          const RunContext& run, InFlight* in_flight) {
+                                          const RunContext& run, const ModelAccess& access) {
   LoadedNetwork loaded;
   std::string path;
   switch (source.source_case()) {
@@ -405,19 +442,49 @@ absl::StatusOr<LoadedNetwork> LoadNetwork(const v1::ModelSource& source, std::st
                    fmt::format("= \"{}\"; must be json or pb, with a network", source.file().format()));
         return errors.ToStatus();
       }
-      PM_ASSIGN_OR_RETURN(FileMessage file, ParseMessage(source.file(), path, run, in_flight));
+      PM_ASSIGN_OR_RETURN(FileMessage file, ParseMessage(source.file(), path, run, access.in_flight));
       loaded.held = std::move(file.held);
       loaded.message = std::move(file.model);
       path = At(path, "content");
       break;
     }
-    case v1::ModelSource::kModelSha256:
-      return ModelNotCachedError();
+    case v1::ModelSource::kModelSha256: {
+      PM_ASSIGN_OR_RETURN(const auto stored, FindStored(source.model_sha256(), access));
+      path = At(at, "model_sha256");
+      if (stored->network.empty()) {
+        FieldErrors errors;
+        errors.Add(path, "names a model of patches; must be one with a network");
+        return errors.ToStatus();
+      }
+      if (!loaded.message.ParseFromString(stored->network)) return absl::InternalError("a stored network is damaged");
+      break;
+    }
     case v1::ModelSource::SOURCE_NOT_SET:
       return NoSource(at);
   }
   PM_ASSIGN_OR_RETURN(loaded.checked, NetworkFromProto(loaded.message, path));
   return loaded;
+}
+
+absl::Status KeepModel(const LoadedModel& loaded, const v1::ModelSource& source, const RunContext& run,
+                       const ModelAccess& access) {
+  if (access.store == nullptr) return absl::OkStatus();
+  StoredModel stored{loaded, {}};
+  if (loaded.network) {
+    PM_ASSIGN_OR_RETURN(const LoadedNetwork network, LoadNetwork(source, "source", run, access));
+    stored.network = network.message.SerializeAsString();
+  }
+  const std::size_t bytes = MemoryOf(loaded.model) + stored.network.size();
+  access.store->Put<StoredModel>({Stored::kModel, access.caller, loaded.digest},
+                                 std::make_shared<const StoredModel>(std::move(stored)), bytes);
+  return absl::OkStatus();
+}
+
+std::size_t MemoryOf(const PatchModel& model) {
+  std::size_t bytes = 500 * model.faces.size();
+  for (const Patch& patch : model.patches)
+    bytes += sizeof(Patch) + patch.id.capacity() + 32 * ControlPoints(patch.shape).size();
+  return bytes;
 }
 
 }  // namespace patchmill

@@ -12,8 +12,16 @@
 #include "patchmill/v1/model.pb.h"
 #include "server/convert/model.h"
 #include "server/in_flight.h"
+#include "server/store.h"
 
 namespace patchmill {
+
+// What a call may use to load a model.
+struct ModelAccess {
+  InFlight* in_flight = nullptr;  // counts the memory of messages in files
+  Store* store = nullptr;         // has the models that were uploaded, and the CAD files that were read
+  std::string caller = {};        // whose they are
+};
 
 struct LoadedModel {
   PatchModel model;
@@ -26,11 +34,12 @@ struct LoadedModel {
 };
 
 // Loads a model. `at` is the path of the source in its request. INVALID_ARGUMENT if it cannot be read (with
-// line and reason), NOT_FOUND for a digest, RESOURCE_EXHAUSTED for a limit, and the errors of `run` while
-// JSON is read and while a network is joined. Limits are checked before the cost that they bound arises. The
-// memory of the message in a file is held in `in_flight` (may be null) as long as that message lives.
+// line and reason), NOT_FOUND for a digest of a model that the store does not have, RESOURCE_EXHAUSTED for a
+// limit, and the errors of `run` while JSON is read and while a network is joined. Limits are checked before
+// the cost that they bound arises. The memory of the message in a file is held in `access.in_flight` as long as
+// that message lives. A CAD file that was read is kept in the store.
 absl::StatusOr<LoadedModel> LoadModel(const v1::ModelSource& source, std::string_view at,
-                                      const RunContext& run = {}, InFlight* in_flight = nullptr);
+                                      const RunContext& run = {}, const ModelAccess& access = {});
 
 // Loads a network as a message and as a value. Errors as LoadModel, and INVALID_ARGUMENT for a model of
 // patches.
@@ -40,6 +49,18 @@ struct LoadedNetwork {
   CheckedNetwork checked;
 };
 absl::StatusOr<LoadedNetwork> LoadNetwork(const v1::ModelSource& source, std::string_view at,
-                                          const RunContext& run = {}, InFlight* in_flight = nullptr);
+                                          const RunContext& run = {}, const ModelAccess& access = {});
+
+// A model in the store.
+struct StoredModel {
+  LoadedModel loaded;
+  std::string network;  // a curve network as serialized v1::PatchModel; empty for any other model
+};
+// Keeps a loaded model without faults. `source` is what it was loaded from.
+absl::Status KeepModel(const LoadedModel& loaded, const v1::ModelSource& source, const RunContext& run,
+                       const ModelAccess& access);
+
+// About the memory that a model takes, bytes.
+std::size_t MemoryOf(const PatchModel& model);
 
 }  // namespace patchmill

@@ -18,6 +18,7 @@
 
 #include "core/base/status.h"
 #include "server/errors.h"
+#include "server/limits.h"
 
 namespace patchmill {
 namespace {
@@ -36,6 +37,14 @@ absl::Status Guarded(const RawMethod& method, RawCall& call) {
   } catch (const std::exception& e) {
     return absl::InternalError(fmt::format("unexpected: {}", e.what()));
   }
+}
+
+// The common name in the certificate of the other side.
+std::string CallerOf(const grpc::CallbackServerContext& context) {
+  const auto authentic = context.auth_context();
+  if (!authentic || !authentic->IsPeerAuthenticated()) return {};
+  const auto names = authentic->FindPropertyValues("x509_common_name");
+  return names.empty() ? std::string() : std::string(names.front().data(), names.front().size());
 }
 
 // A call from its start to its end. gRPC calls the On... functions from its own threads.
@@ -61,6 +70,7 @@ class Reactor final : public grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::Byt
         begin_(std::chrono::steady_clock::now()),
         deadline_(context->deadline()),
         peer_(context->peer()),
+        caller_(CallerOf(*context)),
         label_(method.path.substr(method.path.rfind('/') + 1)) {}
 
   grpc::ByteBuffer& request() override { return request_; }
@@ -68,9 +78,27 @@ class Reactor final : public grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::Byt
     request_.Clear();
     held_ = {};
   }
+  const std::string& caller() const override { return caller_; }
   std::chrono::system_clock::time_point deadline() const override { return deadline_; }
   bool Cancelled() const override { return cancelled_.load(); }
   void SetLabel(std::string label) override { label_ = std::move(label); }
+
+  bool ReadNext() override {
+    if (Cancelled()) return false;
+    request_.Clear();
+    held_ = {};
+    std::unique_lock<std::mutex> lock(mutex_);
+    reading_ = true;
+    const std::weak_ptr<Reactor> weak = self_;
+    expected_ = shared_.in_flight.Expect(peer_, [weak](const absl::Status& status) {
+      if (const auto call = weak.lock()) call->RefuseRest(status);
+    });
+    lock.unlock();
+    StartRead(&request_);
+    lock.lock();
+    read_.wait(lock, [this] { return !reading_; });
+    return read_ok_;
+  }
 
   bool Write(const google::protobuf::Message& response) override {
     if (Cancelled()) return false;
@@ -102,11 +130,15 @@ class Reactor final : public grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::Byt
     const std::lock_guard<std::mutex> lock(mutex_);
     const std::size_t bytes = ok ? request_.Length() : 0;
     shared_.in_flight.Arrived(expected_, bytes);
+    if (reading_) {
+      RestRead(ok, bytes);
+      return;
+    }
     if (!ok) {
       End(Phase::kReceiving, RequestUnreadableError("the call ended before its request had come"));
       return;
     }
-    absl::StatusOr<InFlight::Hold> held = shared_.in_flight.Take(bytes);
+    absl::StatusOr<InFlight::Hold> held = CheckedHold(bytes);
     if (!held.ok()) {
       End(Phase::kReceiving, held.status());
       return;
@@ -149,7 +181,45 @@ class Reactor final : public grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::Byt
   void Run() {
     const absl::Status status = Guarded(method_, *this);
     DropRequest();
-    End(Phase::kRunning, late_ ? LateError() : status);
+    const absl::Status refused = Refused();
+    End(Phase::kRunning, late_ ? LateError() : refused.ok() ? status : refused);
+  }
+
+  absl::Status Refused() {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return refused_;
+  }
+
+  // A further message of the request has come, or none will.
+  void RestRead(bool ok, std::size_t bytes) {
+    read_ok_ = ok;
+    if (ok) {
+      absl::StatusOr<InFlight::Hold> held = CheckedHold(bytes);
+      if (held.ok()) {
+        held_ = *std::move(held);
+      } else {
+        refused_ = held.status();
+        read_ok_ = false;
+      }
+    }
+    reading_ = false;
+    read_.notify_all();
+  }
+
+  // A further message on its way is refused. gRPC then ends the read.
+  void RefuseRest(const absl::Status& status) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (!reading_) return;
+    refused_ = status;
+    context_->TryCancel();
+  }
+
+  absl::StatusOr<InFlight::Hold> CheckedHold(std::size_t bytes) {
+    if (bytes > limits::kMaxMessageBytes) {
+      return LimitError("message_bytes", static_cast<double>(limits::kMaxMessageBytes),
+                        static_cast<double>(bytes));
+    }
+    return shared_.in_flight.Take(bytes);
   }
 
   absl::Status LateError() const {
@@ -162,6 +232,8 @@ class Reactor final : public grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::Byt
     if (!phase_.compare_exchange_strong(in, Phase::kEnded)) return;
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin_;
     if (shared_.log) shared_.log({label_, peer_, took.count(), status});
+    if (const auto delay = RetryDelay(status))
+      context_->AddTrailingMetadata("grpc-retry-pushback-ms", std::to_string(delay->count()));
     Finish(ToGrpcStatus(status));
   }
 
@@ -170,7 +242,7 @@ class Reactor final : public grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::Byt
   grpc::CallbackServerContext* const context_;
   const std::chrono::steady_clock::time_point begin_;
   const std::chrono::system_clock::time_point deadline_;
-  const std::string peer_;
+  const std::string peer_, caller_;
   std::string label_;
   std::shared_ptr<Reactor> self_;
   InFlight::Id expected_ = 0;
@@ -181,7 +253,10 @@ class Reactor final : public grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::Byt
   std::thread thread_;
   std::mutex mutex_;  // orders the writes of gRPC's threads before the reads of the call's own
   std::condition_variable written_;
+  std::condition_variable read_;
   bool writing_ = false, write_ok_ = false;
+  bool reading_ = false, read_ok_ = false;  // of a further message
+  absl::Status refused_;                    // why further messages were refused
   bool late_ = false;  // of the call's own thread only
 };
 

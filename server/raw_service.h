@@ -25,6 +25,11 @@ class RawCall {
   virtual grpc::ByteBuffer& request() = 0;
   // Frees the bytes of the request. Call it after they are parsed.
   virtual void DropRequest() = 0;
+  // Waits for the next message of a request of several, which request() then has. False: there is none any
+  // more, or the call has ended. The call's own thread may end it with an error then.
+  virtual bool ReadNext() = 0;
+  // Who calls: the name in its certificate. Empty where nobody says who he is.
+  virtual const std::string& caller() const = 0;
   virtual std::chrono::system_clock::time_point deadline() const = 0;  // max() if there is none
   virtual bool Cancelled() const = 0;                                  // from any thread
   // Sends a message and waits until it is on its way. False: the other side is gone, or has not taken the

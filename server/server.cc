@@ -4,6 +4,7 @@
 #include <chrono>
 #include <csignal>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -14,9 +15,11 @@
 
 #include "core/base/keep_memory.h"
 #include "core/base/status.h"
+#include "server/errors.h"
 #include "server/health_service.h"
 #include "server/limits.h"
 #include "server/listener.h"
+#include "server/lower_priority.h"
 #include "server/reflection_service.h"
 #include "server/services.h"
 #include "server/tls_files.h"
@@ -48,9 +51,10 @@ class GrpcServer final : public RunningServer {
  public:
   // Without a listener the server serves its own process only.
   GrpcServer(const ServerOptions& options, std::unique_ptr<Listener> listener,
-             const std::shared_ptr<grpc::ServerCredentials>& credentials)
+             const std::shared_ptr<grpc::ServerCredentials>& credentials,
+             std::unique_ptr<DiskCache> disk = nullptr)
       : listener_(std::move(listener)),
-        env_(options, MeterOf(listener_.get())),
+        env_(options, MeterOf(listener_.get()), std::move(disk)),
         services_(MakeServices(&env_)),
         health_(env_.in_flight, options.max_write_seconds),
         reflection_(MakeReflectionService(Names(), env_.in_flight, options.max_write_seconds)) {
@@ -100,15 +104,27 @@ class GrpcServer final : public RunningServer {
   void Drain(double seconds) override {
     if (!server_ || drained_) return;
     drained_ = true;
+    // The port stays open: whoever asks learns that the server drains, and a new call is told the reason.
     SetServing(false);
-    env_.admission.Drain();
+    env_.quick.Drain();
+    env_.jobs.Drain();
+    const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
+    while (Busy() && std::chrono::steady_clock::now() < end)
+      std::this_thread::sleep_for(std::chrono::milliseconds(limits::kCancelPollMs));
+    env_.stopped.store(true);
+    env_.running.StopAll(DrainingError());
+    const auto last = std::chrono::system_clock::now() + std::chrono::milliseconds(limits::kAbandonMs);
+    while (Busy() && std::chrono::system_clock::now() < last)
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
     if (listener_) listener_->Stop();
-    server_->Shutdown(std::chrono::system_clock::now() +
-                      std::chrono::milliseconds(static_cast<std::int64_t>(1000.0 * seconds)));
+    server_->Shutdown(last);
     server_->Wait();
   }
 
  private:
+  // Calls run, wait, or have not read their answer yet.
+  bool Busy() const { return env_.calls.load() > 0; }
+
   void SetServing(bool serving) {
     health_.SetServing("", serving);
     for (const NamedService& service : services_) health_.SetServing(service.name, serving);
@@ -146,6 +162,13 @@ absl::Status CheckEncrypted(const ServerOptions& options, const std::vector<Sock
                   options.listen));
 }
 
+absl::StatusOr<std::unique_ptr<DiskCache>> OpenCache(const ServerOptions& options) {
+  if (options.cache_dir.empty()) return std::unique_ptr<DiskCache>();
+  const std::chrono::duration<double> lifetime(86400.0 * options.cache_days);
+  return DiskCache::Open({options.cache_dir, std::int64_t{options.cache_mib} << 20,
+                          std::chrono::duration_cast<std::chrono::seconds>(lifetime)});
+}
+
 }  // namespace
 
 absl::StatusOr<std::unique_ptr<RunningServer>> StartServer(const ServerOptions& options) {
@@ -153,13 +176,15 @@ absl::StatusOr<std::unique_ptr<RunningServer>> StartServer(const ServerOptions& 
   PM_ASSIGN_OR_RETURN(const auto credentials, Credentials(options));
   PM_RETURN_IF_ERROR(CheckEncrypted(options, addresses));
   PM_ASSIGN_OR_RETURN(auto listener, Listener::Bind(addresses, options.listen, RaiseConnectionLimit()));
-  auto server = std::make_unique<GrpcServer>(options, std::move(listener), credentials);
+  PM_ASSIGN_OR_RETURN(std::unique_ptr<DiskCache> disk, OpenCache(options));
+  auto server = std::make_unique<GrpcServer>(options, std::move(listener), credentials, std::move(disk));
   if (!server->started()) return absl::InternalError("gRPC does not start");
   return server;
 }
 
 std::unique_ptr<RunningServer> StartEmbeddedServer(ServerOptions options) {
   options.log_requests = false;
+  options.store_mib = 0;  // its only client asks once
   auto server = std::make_unique<GrpcServer>(options, nullptr, nullptr);
   PM_CHECK(server->started());
   return server;
@@ -174,8 +199,11 @@ int Serve(const ServerOptions& options) {
   sigaddset(&signals, SIGINT);
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
 
+  LowerPriorityOfWorkers();
   spdlog::set_default_logger(spdlog::stderr_logger_mt("patchmill"));
-  absl::StatusOr<std::unique_ptr<RunningServer>> server = StartServer(options);
+  ServerOptions served = options;
+  served.lower_priority_of_jobs = true;
+  absl::StatusOr<std::unique_ptr<RunningServer>> server = StartServer(served);
   if (!server.ok()) {
     fmt::print(stderr, "patchmill: {}\n", std::string(server.status().message()));
     return 2;
@@ -183,8 +211,8 @@ int Serve(const ServerOptions& options) {
   spdlog::info("patchmill {} listens on {}, port {}", ServerVersion(), options.listen, (*server)->port());
   int signal = 0;
   sigwait(&signals, &signal);
-  spdlog::info("signal {}: draining for at most {} s", signal, limits::kDrainSeconds);
-  (*server)->Drain(limits::kDrainSeconds);
+  spdlog::info("signal {}: draining for at most {} s", signal, options.drain_seconds);
+  (*server)->Drain(options.drain_seconds);
   spdlog::info("stopped");
   return 0;
 }

@@ -1,20 +1,27 @@
 #include "server/services.h"
 
+#include <atomic>
 #include <chrono>
 #include <utility>
+#include <variant>
 
 #include <grpcpp/grpcpp.h>
 #include <grpcpp/impl/codegen/proto_utils.h>
 #include <spdlog/spdlog.h>
 
+#include "core/base/digest.h"
 #include "core/base/status.h"
 #include "patchmill/v1/analysis_service.grpc.pb.h"
 #include "patchmill/v1/model_service.grpc.pb.h"
 #include "patchmill/v1/toolpath_service.grpc.pb.h"
+#include "server/answer.h"
+#include "server/errors.h"
 #include "server/handlers/handlers.h"
+#include "server/importer.h"
 #include "server/limits.h"
 #include "server/parse_request.h"
 #include "server/raw_service.h"
+#include "server/running_jobs.h"
 
 namespace patchmill {
 namespace {
@@ -22,6 +29,7 @@ namespace {
 Call MakeCall(ServerEnv* env, const RawCall& raw) {
   Call call;
   call.env = env;
+  call.caller = raw.caller();
   call.cancelled = [&raw] { return raw.Cancelled(); };
   const auto deadline = raw.deadline();
   if (deadline != std::chrono::system_clock::time_point::max()) {
@@ -83,35 +91,167 @@ absl::StatusOr<Serialized> Serialize(InFlight& in_flight, const google::protobuf
   return answer;
 }
 
-// Admission, until the answer is bytes.
+// The answer of a call as bytes. No call begins while the server drains.
 template <class Request, class Response>
-absl::StatusOr<Serialized> Admitted(ServerEnv* env, RawCall& raw, UnaryHandler<Request, Response> handler) {
-  PM_ASSIGN_OR_RETURN(const Admission::Ticket ticket, env->admission.Enter());
+absl::StatusOr<Serialized> AnswerOf(ServerEnv* env, RawCall& raw, UnaryHandler<Request, Response> handler) {
+  PM_RETURN_IF_ERROR(env->quick.CheckOpen());
   Response response;
   PM_RETURN_IF_ERROR(Run<Request>(
       env, raw, [&](const Call& call, const Request& request) { return handler(call, request, &response); }));
   return Serialize(env->in_flight, response);
 }
 
+absl::Status Gone() { return absl::CancelledError("the client is gone"); }
+
 template <class Request, class Response>
 RawMethod Unary(ServerEnv* env, std::string path, UnaryHandler<Request, Response> handler) {
   return {std::move(path), [env, handler](RawCall& raw) -> absl::Status {
-            PM_ASSIGN_OR_RETURN(const Serialized answer, Admitted(env, raw, handler));
-            return raw.Write(answer.bytes) ? absl::OkStatus() : absl::CancelledError("the client is gone");
+            PM_ASSIGN_OR_RETURN(const Serialized answer, AnswerOf(env, raw, handler));
+            return raw.Write(answer.bytes) ? absl::OkStatus() : Gone();
           }};
 }
 
 template <class Request, class Response>
 using StreamHandler = absl::Status (*)(const Call&, const Request&, const Sink<Response>&);
 
+// Sends an answer as it grows, until its end, or until this call ends.
+absl::Status Follow(RawCall& raw, Answer::Reader& reader) {
+  const auto deadline = raw.deadline();
+  while (true) {
+    auto event = reader.Next(true, std::chrono::milliseconds(limits::kCancelPollMs));
+    if (auto* message = std::get_if<Answer::Reader::Message>(&event)) {
+      if (!raw.Write(message->bytes)) return Gone();
+    } else if (auto* progress = std::get_if<Answer::Reader::Progress>(&event)) {
+      if (!raw.Write(progress->bytes)) return Gone();
+    } else if (auto* end = std::get_if<absl::Status>(&event)) {
+      return *end;
+    }
+    if (raw.Cancelled()) return absl::CancelledError("cancelled by the caller");
+    if (std::chrono::system_clock::now() >= deadline)
+      return absl::DeadlineExceededError("the deadline has passed");
+  }
+}
+
+grpc::ByteBuffer BytesOf(const google::protobuf::Message& message) {
+  grpc::ByteBuffer bytes;
+  bool own = false;
+  PM_CHECK(grpc::SerializationTraits<google::protobuf::Message>::Serialize(message, &bytes, &own).ok());
+  return bytes;
+}
+
+// What an answer depends on, but for its caller: the method, the request without what the answer does not
+// depend on, and the programs that make it.
+std::string AnswerDigest(const std::string& path, const std::string& request) {
+  Canonical digest;
+  digest.Add("patchmill answer 1").Add(path).Add(ServerVersion()).Add(ImporterStamp()).Add(Sha256(request));
+  return digest.Digest();
+}
+std::string KeyBytes(const v1::GenerateProgramRequest& request) {
+  v1::GenerateProgramRequest key = request;
+  key.clear_request_id();
+  key.clear_max_threads();
+  return key.SerializeAsString();
+}
+std::string KeyBytes(const v1::VerifyProgramRequest& request) {
+  v1::VerifyProgramRequest key = request;
+  key.clear_max_threads();
+  return key.SerializeAsString();
+}
+const std::string& ModelIn(const v1::GenerateProgramRequest& request) {
+  return request.job().source().model_sha256();
+}
+const std::string& ModelIn(const v1::VerifyProgramRequest& request) { return request.source().model_sha256(); }
+
+bool SendKept(RawCall& raw, const Messages& messages) {
+  for (const grpc::ByteBuffer& message : messages) {
+    if (!raw.Write(message)) return false;
+  }
+  return true;
+}
+
+// A request that its job owns.
+template <class Request>
+struct Owned {
+  InFlight::Hold held;
+  Request request;
+};
+
+// The job of a request. It ends when nobody reads its answer any more; the deadlines of its readers are theirs.
+template <class Request, class Response>
+RunningJobs::Job JobOf(ServerEnv* env, StoreKey key, std::shared_ptr<Owned<Request>> owned,
+                       StreamHandler<Request, Response> handler) {
+  RunningJobs::Job job;
+  job.from = ModelIn(owned->request);
+  job.key = std::move(key);
+  const std::string caller = job.key.caller;
+  job.work = [env, owned = std::move(owned), handler, caller](Answer& answer, const std::function<bool()>& gone) {
+    Call call;
+    call.env = env;
+    call.caller = caller;
+    call.cancelled = gone;
+    const Sink<Response> sink = [&](const Response& response) {
+      if (!response.has_progress()) return answer.Write(BytesOf(response));
+      answer.SetProgress(BytesOf(response));
+      return !gone();
+    };
+    return handler(call, owned->request, sink);
+  };
+  return job;
+}
+
 template <class Request, class Response>
 RawMethod Stream(ServerEnv* env, std::string path, StreamHandler<Request, Response> handler) {
+  const std::string method = path;
+  return {std::move(path), [env, handler, method](RawCall& raw) -> absl::Status {
+            PM_RETURN_IF_ERROR(env->jobs.CheckOpen());
+            auto owned = std::make_shared<Owned<Request>>();
+            PM_ASSIGN_OR_RETURN(owned->held, ParseRequest(raw, env->in_flight, owned->request));
+            LabelCall(owned->request, raw);
+            StoreKey key{Stored::kAnswer, raw.caller(), AnswerDigest(method, KeyBytes(owned->request))};
+            if (const auto kept = env->answers.Find(key, ModelIn(owned->request))) {
+              owned.reset();
+              return SendKept(raw, *kept) ? absl::OkStatus() : Gone();
+            }
+            PM_ASSIGN_OR_RETURN(RunningJobs::Reading reading,
+                                env->running.Start(JobOf(env, std::move(key), std::move(owned), handler)));
+            return Follow(raw, *reading.reader);
+          }};
+}
+
+// A request of several messages.
+template <class Request, class Response>
+using UploadHandler = absl::Status (*)(const Call&, const NextMessage<Request>&, Response*);
+
+template <class Request, class Response>
+RawMethod Upload(ServerEnv* env, std::string path, UploadHandler<Request, Response> handler) {
   return {std::move(path), [env, handler](RawCall& raw) -> absl::Status {
-            PM_ASSIGN_OR_RETURN(const Admission::Ticket ticket, env->admission.Enter());
-            const Sink<Response> sink = [&raw](const Response& response) { return raw.Write(response); };
-            return Run<Request>(env, raw, [&](const Call& call, const Request& request) {
-              return handler(call, request, sink);
-            });
+            PM_RETURN_IF_ERROR(env->quick.CheckOpen());
+            InFlight::Hold held;
+            bool first = true;
+            const NextMessage<Request> next = [&](Request& message) -> absl::StatusOr<bool> {
+              held = {};
+              if (!std::exchange(first, false) && !raw.ReadNext()) return false;
+              message.Clear();
+              PM_ASSIGN_OR_RETURN(held, ParseRequest(raw, env->in_flight, message));
+              return true;
+            };
+            Response response;
+            PM_RETURN_IF_ERROR(handler(MakeCall(env, raw), next, &response));
+            PM_ASSIGN_OR_RETURN(const Serialized answer, Serialize(env->in_flight, response));
+            return raw.Write(answer.bytes) ? absl::OkStatus() : Gone();
+          }};
+}
+
+// The same method, whose running calls are counted.
+RawMethod Counted(ServerEnv* env, RawMethod method) {
+  return {method.path, [env, run = std::move(method.run)](RawCall& raw) {
+            struct Count {
+              explicit Count(std::atomic<int>& calls) : calls_(calls) { calls_.fetch_add(1); }
+              ~Count() { calls_.fetch_sub(1); }
+              std::atomic<int>& calls_;
+            };
+            const Count count(env->calls);
+            return run(raw);
           }};
 }
 
@@ -122,12 +262,17 @@ class ServiceBuilder {
 
   template <class Request, class Response>
   ServiceBuilder& Add(const char* method, UnaryHandler<Request, Response> handler) {
-    methods_.push_back(Unary(env_, Path(method), handler));
+    methods_.push_back(Counted(env_, Unary(env_, Path(method), handler)));
     return *this;
   }
   template <class Request, class Response>
   ServiceBuilder& Add(const char* method, StreamHandler<Request, Response> handler) {
-    methods_.push_back(Stream(env_, Path(method), handler));
+    methods_.push_back(Counted(env_, Stream(env_, Path(method), handler)));
+    return *this;
+  }
+  template <class Request, class Response>
+  ServiceBuilder& Add(const char* method, UploadHandler<Request, Response> handler) {
+    methods_.push_back(Counted(env_, Upload(env_, Path(method), handler)));
     return *this;
   }
   NamedService Build() {
@@ -155,6 +300,8 @@ std::vector<NamedService> MakeServices(ServerEnv* env) {
                          .Add("EditModel", HandleEditModel)
                          .Add("FairNet", HandleFairNet)
                          .Add("FairCurve", HandleFairCurve)
+                         .Add("UploadModel", HandleUploadModel)
+                         .Add("ForgetModel", HandleForgetModel)
                          .Build());
   services.push_back(ServiceBuilder(env, v1::AnalysisService::service_full_name())
                          .Add("SplitRegions", HandleSplitRegions)

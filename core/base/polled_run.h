@@ -15,16 +15,38 @@ namespace patchmill {
 // never moves, so Check() fails then.
 class PolledRun {
  public:
-  explicit PolledRun(const RunContext& run) : before_(current_) { current_ = &run; }
-  ~PolledRun() { current_ = before_; }
+  explicit PolledRun(const RunContext& run) : before_(current_) {
+    if (pending_ != 0) Settle();
+    current_ = &run;
+  }
+  ~PolledRun() {
+    if (pending_ != 0) Settle();
+    current_ = before_;
+  }
   PolledRun(const PolledRun&) = delete;
   PolledRun& operator=(const PolledRun&) = delete;
 
   // The run of the innermost PolledRun on this thread; null outside of any.
   static const RunContext* current() { return current_; }
 
+  // Counts memory that this thread has taken (positive) or freed (negative) for its run. Small amounts are
+  // added to the budget of the run together.
+  static void CountMemory(std::int64_t bytes) {
+    if (current_ == nullptr) return;
+    pending_ += bytes;
+    constexpr std::int64_t kTogether = 64 << 10;
+    if (pending_ > kTogether || pending_ < -kTogether) Settle();
+  }
+
  private:
+  static void Settle() {
+    const std::int64_t bytes = pending_;
+    pending_ = 0;
+    if (current_ != nullptr && current_->budget() != nullptr) current_->budget()->Add(bytes);
+  }
+
   static inline thread_local const RunContext* current_ = nullptr;
+  static inline thread_local std::int64_t pending_ = 0;
   const RunContext* before_;
 };
 

@@ -8,6 +8,8 @@
 
 #include <absl/status/status.h>
 
+#include "core/base/memory_budget.h"
+
 namespace patchmill {
 
 // All threads of one job share it. It is cheap to poll: Cancelled() is one relaxed load and, only if a
@@ -33,9 +35,14 @@ class RunContext {
 
   void Cancel() { cancelled_.store(true, std::memory_order_relaxed); }  // any thread, any number of times
   bool Cancelled() const {
-    return cancelled_.load(std::memory_order_relaxed) || (has_deadline_ && Clock::now() >= deadline_);
+    return cancelled_.load(std::memory_order_relaxed) || (budget_ != nullptr && budget_->Exceeded()) ||
+           (has_deadline_ && Clock::now() >= deadline_);
   }
-  // OK, CANCELLED or DEADLINE_EXCEEDED.
+  // The job ends when it has taken more memory than `budget` grants; null: it may take any. `budget` outlives
+  // the run.
+  void set_budget(MemoryBudget* budget) { budget_ = budget; }
+  MemoryBudget* budget() const { return budget_; }
+  // OK, CANCELLED, DEADLINE_EXCEEDED, or RESOURCE_EXHAUSTED for the memory of the job.
   absl::Status Check() const;
   void Progress(std::string_view stage, double fraction) const {
     if (sink_) sink_(stage, fraction);
@@ -46,6 +53,7 @@ class RunContext {
   std::atomic<bool> cancelled_{false};
   bool has_deadline_ = false;
   Clock::time_point deadline_{};
+  MemoryBudget* budget_ = nullptr;
   ProgressSink sink_;
 };
 

@@ -49,15 +49,29 @@ def server(program: pathlib.Path) -> Iterator[str]:
             process.wait()
 
 
+def documents_in(request: str) -> list[dict[str, Any]]:
+    """The messages of a request: one, or several in a row where the client sends a stream."""
+    found, at = [], 0
+    while request[at:].strip():
+        at += len(request[at:]) - len(request[at:].lstrip())
+        document, at = json.JSONDecoder().raw_decode(request, at)
+        found.append(document)
+    return found
+
+
 def call(address: str, types: Types, rpc: Rpc, request: str) -> list[dict[str, Any]]:
     """The answers to a request in JSON, by the names of the contract: one, or those of the stream."""
     # A field that the contract does not know is an error here, and so is one of the wrong type.
-    message = json_format.Parse(request, types.of(rpc.request)(), descriptor_pool=types.pool)
+    messages = [json_format.Parse(json.dumps(document), types.of(rpc.request)(), descriptor_pool=types.pool)
+                for document in documents_in(request)]
+    message = messages[0]
     answer = types.of(rpc.response)
     options = [("grpc.max_receive_message_length", 64 << 20)]
     with grpc.insecure_channel(address, options=options) as channel:
         path, write = f"/{rpc.path}", type(message).SerializeToString
-        if rpc.streams:
+        if rpc.uploads:
+            answers = [channel.stream_unary(path, write, answer.FromString)(iter(messages), timeout=CALL_SECONDS)]
+        elif rpc.streams:
             answers = list(channel.unary_stream(path, write, answer.FromString)(message, timeout=CALL_SECONDS))
         else:
             answers = [channel.unary_unary(path, write, answer.FromString)(message, timeout=CALL_SECONDS)]

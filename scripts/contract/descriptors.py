@@ -59,6 +59,7 @@ class Rpc:
     request: str
     response: str
     streams: bool  # the server answers with a stream
+    uploads: bool  # the client sends a stream
 
     @property
     def path(self) -> str:
@@ -134,6 +135,7 @@ def read_contract(files: descriptor_pb2.FileDescriptorSet) -> Contract:
         for k, service in enumerate(file.service):
             contract.services[service.name] = text(6, k)
             contract.rpcs += [
-                Rpc(service.name, m.name, text(6, k, 2, i), _short(m.input_type), _short(m.output_type), m.server_streaming)
+                Rpc(service.name, m.name, text(6, k, 2, i), _short(m.input_type), _short(m.output_type), m.server_streaming,
+                    m.client_streaming)
                 for i, m in enumerate(service.method)]
     return contract

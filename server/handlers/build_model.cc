@@ -54,7 +54,7 @@ absl::Status HandleBuildModel(const Call& call, const v1::BuildModelRequest& req
     return errors.ToStatus();
   }
   PM_RETURN_IF_ERROR(CheckNetworkLimits(request.network()));
-  return RunJobThread(call, request.max_threads(), {}, [&](const RunContext& run) -> absl::Status {
+  return RunQuickCall(call, {.max_threads = request.max_threads()}, [&](const RunContext& run) -> absl::Status {
     PatchModel model;
     PM_ASSIGN_OR_RETURN(PatchShape shape, OutlineSurface(request, *unit));
     model.patches.push_back({"outline", std::move(shape)});

@@ -100,8 +100,8 @@ absl::Status HandleCheckModel(const Call& call, const v1::CheckModelRequest& req
   if (request.has_tool()) tool = FromProto(request.tool(), "tool", CuttingData::kOptional, errors);
   PM_RETURN_IF_ERROR(errors.ToStatus());
   if (tool) job.operation.tool = *tool;
-  return RunJobThread(call, request.max_threads(), {}, [&](const RunContext& run) -> absl::Status {
-    PM_ASSIGN_OR_RETURN(LoadedModel model, LoadModel(request.source(), "source", run, &call.env->in_flight));
+  return RunQuickCall(call, {.max_threads = request.max_threads()}, [&](const RunContext& run) -> absl::Status {
+    PM_ASSIGN_OR_RETURN(LoadedModel model, LoadModel(request.source(), "source", run, ModelsOf(call)));
     response->set_model_sha256(model.digest);
     if (!model.faults.empty()) {
       response->set_patch_count(static_cast<int>(model.model.patches.size()));

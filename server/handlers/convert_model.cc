@@ -15,8 +15,8 @@ namespace patchmill {
 namespace {
 
 // A curve network stays one, so that it can still be edited.
-absl::Status CopyNetwork(const v1::ConvertModelRequest& request, InFlight& in_flight, const RunContext& run,
-                         v1::PatchModel* model) {
+absl::Status CopyNetwork(const v1::ConvertModelRequest& request, const ModelAccess& models,
+                         const RunContext& run, v1::PatchModel* model) {
   if (request.has_scale() && request.scale() != 1.0) {
     FieldErrors errors;
     errors.Add("scale",
@@ -25,7 +25,7 @@ absl::Status CopyNetwork(const v1::ConvertModelRequest& request, InFlight& in_fl
                            request.scale()));
     return errors.ToStatus();
   }
-  PM_ASSIGN_OR_RETURN(LoadedNetwork network, LoadNetwork(request.source(), "source", run, &in_flight));
+  PM_ASSIGN_OR_RETURN(LoadedNetwork network, LoadNetwork(request.source(), "source", run, models));
   *model = std::move(network.message);
   return absl::OkStatus();
 }
@@ -45,14 +45,14 @@ absl::Status HandleConvertModel(const Call& call, const v1::ConvertModelRequest&
             fmt::format("in [{:g}, {:g}]", limits::kMinScale, limits::kMaxScale));
     PM_RETURN_IF_ERROR(errors.ToStatus());
   }
-  return RunJobThread(call, request.max_threads(), {}, [&](const RunContext& run) -> absl::Status {
-    InFlight& in_flight = call.env->in_flight;
-    PM_ASSIGN_OR_RETURN(LoadedModel loaded, LoadModel(request.source(), "source", run, &in_flight));
+  return RunQuickCall(call, {.max_threads = request.max_threads()}, [&](const RunContext& run) -> absl::Status {
+    const ModelAccess models = ModelsOf(call);
+    PM_ASSIGN_OR_RETURN(LoadedModel loaded, LoadModel(request.source(), "source", run, models));
     AddDiagnostics(loaded.faults, Vec3::Zero(), response->mutable_diagnostics());
     if (!loaded.faults.empty()) return absl::OkStatus();
     PM_RETURN_IF_ERROR(run.Check());
     if (loaded.network) {
-      PM_RETURN_IF_ERROR(CopyNetwork(request, in_flight, run, response->mutable_model()));
+      PM_RETURN_IF_ERROR(CopyNetwork(request, models, run, response->mutable_model()));
       response->set_model_sha256(loaded.digest);
       AddDiagnostics(loaded.remarks, Vec3::Zero(), response->mutable_diagnostics());
       return absl::OkStatus();

@@ -31,7 +31,7 @@ void AddChanged(const JoinedNetwork& before, const JoinedNetwork& after, v1::Edi
 absl::Status Edit(const Call& call, const v1::EditModelRequest& request, const RunContext& run,
                   v1::EditModelResponse* response) {
   PM_ASSIGN_OR_RETURN(LoadedNetwork loaded,
-                      LoadNetwork(request.source(), "source", run, &call.env->in_flight));
+                      LoadNetwork(request.source(), "source", run, ModelsOf(call)));
   const auto findings = [response](const Diagnostics& list) {
     AddDiagnostics(list, Vec3::Zero(), response->mutable_diagnostics());
   };
@@ -76,7 +76,7 @@ absl::Status HandleEditModel(const Call& call, const v1::EditModelRequest& reque
                fmt::format("= {}; must be in [0, {}]", steps, limits::kMaxContinuitySteps));
     return errors.ToStatus();
   }
-  return RunJobThread(call, request.max_threads(), {},
+  return RunQuickCall(call, {.max_threads = request.max_threads()},
                       [&](const RunContext& run) { return Edit(call, request, run, response); });
 }
 

@@ -78,8 +78,8 @@ absl::Status HandleEvaluateSurface(const Call& call, const v1::EvaluateSurfaceRe
                fmt::format("has {} numbers; must have two for each of {} points", request.uv_size(), count));
   }
   PM_RETURN_IF_ERROR(errors.ToStatus());
-  return RunJobThread(call, request.max_threads(), {}, [&](const RunContext& run) -> absl::Status {
-    PM_ASSIGN_OR_RETURN(LoadedModel model, LoadModel(request.source(), "source", run, &call.env->in_flight));
+  return RunQuickCall(call, {.max_threads = request.max_threads()}, [&](const RunContext& run) -> absl::Status {
+    PM_ASSIGN_OR_RETURN(LoadedModel model, LoadModel(request.source(), "source", run, ModelsOf(call)));
     PM_RETURN_IF_ERROR(RequireSound(model));
     PM_RETURN_IF_ERROR(CheckPoints(request, model.model));
     PM_ASSIGN_OR_RETURN(UprightModel upright, MakeUpright(std::move(model), job.setup, run));

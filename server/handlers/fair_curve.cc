@@ -24,7 +24,7 @@ absl::Status HandleFairCurve(const Call& call, const v1::FairCurveRequest& reque
                              v1::FairCurveResponse* response) {
   PM_RETURN_IF_ERROR(RefuseUnknownFields(request));
   // One thread suffices: a curve is a chain in which each point depends on the one before.
-  return RunJobThread(call, 1, {}, [&](const RunContext& run) -> absl::Status {
+  return RunQuickCall(call, {.max_threads = 1}, [&](const RunContext& run) -> absl::Status {
     PM_ASSIGN_OR_RETURN(const FairingOrder order, FromProto(request));
     PM_RETURN_IF_ERROR(run.Check());
     PM_ASSIGN_OR_RETURN(const FairedCurve faired, FairCurve(order.curve, run));

@@ -8,7 +8,7 @@ namespace patchmill {
 absl::Status HandleFairNet(const Call& call, const v1::FairNetRequest& request,
                            v1::FairNetResponse* response) {
   PM_RETURN_IF_ERROR(RefuseUnknownFields(request));
-  return RunJobThread(call, 1, {}, [&](const RunContext& run) -> absl::Status {
+  return RunQuickCall(call, {.max_threads = 1}, [&](const RunContext& run) -> absl::Status {
     PM_ASSIGN_OR_RETURN(const NetFairingOrder order, FromProto(request));
     PM_RETURN_IF_ERROR(run.Check());
     PM_ASSIGN_OR_RETURN(const FairedNet faired, FairNet(order.net, run));

@@ -13,6 +13,7 @@
 #include "server/convert/job.h"
 #include "server/convert/paths.h"
 #include "server/convert/report.h"
+#include "server/estimate_memory.h"
 #include "server/handlers/handlers.h"
 #include "server/handlers/outputs.h"
 #include "server/handlers/prepare.h"
@@ -37,11 +38,12 @@ absl::Status CheckRequestId(const std::string& id) {
   return errors.ToStatus();
 }
 
-Response MakeAccepted(const PreparedJob& prepared, const Outputs& outputs) {
+Response MakeAccepted(const PreparedJob& prepared, const Outputs& outputs, std::int64_t memory_bytes) {
   Response response;
   v1::Accepted& accepted = *response.mutable_accepted();
   accepted.set_request_sha256(prepared.digest);
   accepted.set_server_version(ServerVersion());
+  accepted.set_memory_estimate_bytes(memory_bytes);
   *accepted.mutable_resolved_job() = ToProto(prepared.job, prepared.model.digest, prepared.name);
   *accepted.mutable_resolved_post() = PostToProto(prepared.job);
   if (outputs.contains(v1::OUTPUT_REGIONS) || outputs.contains(v1::OUTPUT_PATHS) ||
@@ -50,6 +52,13 @@ Response MakeAccepted(const PreparedJob& prepared, const Outputs& outputs) {
     *accepted.mutable_patch_ids() = PatchIds(prepared.model.model);
   }
   return response;
+}
+
+// What the job will take, as far as its model shows; at most what there is for jobs.
+std::int64_t EstimatedMemory(const PreparedJob& prepared, const ServerEnv& env) {
+  const double bytes = static_cast<double>(EstimateMemory(prepared.model.model, prepared.job)) *
+                       env.options.estimate_factor;
+  return static_cast<std::int64_t>(bytes);
 }
 
 // The results of the worker thread that the answer needs.
@@ -209,28 +218,32 @@ absl::Status HandleGenerateProgram(const Call& call, const v1::GenerateProgramRe
   }
   PreparedJob prepared;
   const auto prepare = [&](const RunContext& run) -> absl::Status {
-    absl::StatusOr<PreparedJob> made = PrepareJob(request.job(), request.post(), run, call.env->in_flight);
+    absl::StatusOr<PreparedJob> made = PrepareJob(request.job(), request.post(), run, ModelsOf(call));
     if (!made.ok()) return InJob(made.status());
     prepared = *std::move(made);
     PM_RETURN_IF_ERROR(run.Check());
     return request.validate_only() ? InJob(Validate(prepared, run)) : absl::OkStatus();
   };
-  PM_RETURN_IF_ERROR(RunJobThread(call, request.max_threads(), {}, prepare));
+  PM_RETURN_IF_ERROR(RunQuickCall(call, {.max_threads = request.max_threads()}, prepare));
+  const std::int64_t memory = EstimatedMemory(prepared, *call.env);
   const auto gone = [] { return absl::CancelledError("the client has gone"); };
-  if (!sink(MakeAccepted(prepared, outputs))) return gone();
+  if (!sink(MakeAccepted(prepared, outputs, memory))) return gone();
   if (request.validate_only()) return absl::OkStatus();
 
-  const auto beat = [&](std::string_view stage, double fraction) {
-    Response response;
-    response.mutable_progress()->set_stage(std::string(stage));
-    response.mutable_progress()->set_fraction(fraction);
-    return sink(response);
-  };
-  Made made;
-  PM_RETURN_IF_ERROR(
-      RunJobThread(call, request.max_threads(), outputs.contains(v1::OUTPUT_PROGRESS) ? Beat(beat) : Beat(),
-                   [&](const RunContext& run) { return InJob(Make(prepared, wanted, run, &made)); }));
-  return SendResult(prepared, made, outputs, sink) ? absl::OkStatus() : gone();
+  Work work{.max_threads = request.max_threads(), .memory_bytes = memory};
+  if (outputs.contains(v1::OUTPUT_PROGRESS)) {
+    work.beat = [&](const v1::Progress& progress) {
+      Response response;
+      *response.mutable_progress() = progress;
+      return sink(response);
+    };
+  }
+  // The answer is sent before the job's place and memory are given back: it takes as much memory as the job.
+  return RunJobCall(call, work, [&](const RunContext& run) -> absl::Status {
+    Made made;
+    PM_RETURN_IF_ERROR(InJob(Make(prepared, wanted, run, &made)));
+    return SendResult(prepared, made, outputs, sink) ? absl::OkStatus() : gone();
+  });
 }
 
 }  // namespace patchmill

@@ -2,7 +2,10 @@
 // into a sink, so that tests can capture them.
 #pragma once
 
+#include <functional>
+
 #include <absl/status/status.h>
+#include <absl/status/statusor.h>
 
 #include "patchmill/v1/analysis_service.pb.h"
 #include "patchmill/v1/model_service.pb.h"
@@ -28,6 +31,16 @@ absl::Status HandleFairCurve(const Call& call, const v1::FairCurveRequest& reque
 
 absl::Status HandleFairNet(const Call& call, const v1::FairNetRequest& request,
                            v1::FairNetResponse* response);
+
+// Gives the next message of a request of several. False: there is none any more.
+template <class Request>
+using NextMessage = std::function<absl::StatusOr<bool>(Request&)>;
+
+absl::Status HandleUploadModel(const Call& call, const NextMessage<v1::UploadModelRequest>& next,
+                               v1::UploadModelResponse* response);
+
+absl::Status HandleForgetModel(const Call& call, const v1::ForgetModelRequest& request,
+                               v1::ForgetModelResponse* response);
 
 absl::Status HandleSplitRegions(const Call& call, const v1::SplitRegionsRequest& request,
                                 v1::SplitRegionsResponse* response);

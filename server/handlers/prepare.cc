@@ -66,13 +66,13 @@ std::optional<Diagnostic> HugeModelFinding(const Box3& box) {
 }
 
 absl::StatusOr<PreparedJob> PrepareJob(const v1::Job& job, const v1::Post& post, const RunContext& run,
-                                       InFlight& in_flight) {
+                                       const ModelAccess& models) {
   PreparedJob prepared;
   FieldErrors errors;
   prepared.job = FromProto(job, post, "job", errors);
   prepared.name = job.name();
   PM_RETURN_IF_ERROR(errors.ToStatus());
-  PM_ASSIGN_OR_RETURN(LoadedModel loaded, LoadModel(job.source(), "job.source", run, &in_flight));
+  PM_ASSIGN_OR_RETURN(LoadedModel loaded, LoadModel(job.source(), "job.source", run, models));
   PM_RETURN_IF_ERROR(RequireSound(loaded));
   PM_RETURN_IF_ERROR(run.Check());
   PM_ASSIGN_OR_RETURN(UprightModel upright, MakeUpright(std::move(loaded), prepared.job.setup, run));

@@ -21,9 +21,8 @@ struct PreparedJob {
 
 // Reads a job. Errors list all wrong fields of job, post and model together. No job is refused because of an
 // estimate: it carries limits::kMaxCutLengthMm and kMaxPathPoints, and ends when its passes exceed them.
-// While the model's file is parsed, its message is held in `in_flight`.
 absl::StatusOr<PreparedJob> PrepareJob(const v1::Job& job, const v1::Post& post, const RunContext& run,
-                                       InFlight& in_flight);
+                                       const ModelAccess& models);
 
 // INVALID_ARGUMENT for a field that this version does not know. Such a field is never ignored silently.
 absl::Status RefuseUnknownFields(const google::protobuf::Message& request);

@@ -33,7 +33,7 @@ absl::Status HandleSplitRegions(const Call& call, const v1::SplitRegionsRequest&
   }
   const auto make = [&](const RunContext& run) -> absl::Status {
     PM_ASSIGN_OR_RETURN(PreparedJob prepared,
-                        PrepareJob(request.job(), v1::Post(), run, call.env->in_flight));
+                        PrepareJob(request.job(), v1::Post(), run, ModelsOf(call)));
     PM_RETURN_IF_ERROR(run.Check());
     const Job& job = prepared.job;
     PM_ASSIGN_OR_RETURN(const Surface surface,
@@ -65,7 +65,7 @@ absl::Status HandleSplitRegions(const Call& call, const v1::SplitRegionsRequest&
     }
     return absl::OkStatus();
   };
-  return RunJobThread(call, request.max_threads(), {},
+  return RunJobCall(call, {.max_threads = request.max_threads()},
                       [&](const RunContext& run) { return InJob(make(run)); });
 }
 

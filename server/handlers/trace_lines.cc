@@ -167,8 +167,8 @@ absl::Status HandleTraceLines(const Call& call, const v1::TraceLinesRequest& req
   PM_RETURN_IF_ERROR(RefuseUnknownFields(request));
   PM_RETURN_IF_ERROR(CheckThreads(request.max_threads(), "max_threads"));
   PM_ASSIGN_OR_RETURN(const Order order, ReadOrder(request));
-  return RunJobThread(call, request.max_threads(), {}, [&](const RunContext& run) -> absl::Status {
-    PM_ASSIGN_OR_RETURN(LoadedModel model, LoadModel(request.source(), "source", run, &call.env->in_flight));
+  return RunQuickCall(call, {.max_threads = request.max_threads()}, [&](const RunContext& run) -> absl::Status {
+    PM_ASSIGN_OR_RETURN(LoadedModel model, LoadModel(request.source(), "source", run, ModelsOf(call)));
     PM_RETURN_IF_ERROR(RequireSound(model));
     PM_ASSIGN_OR_RETURN(UprightModel upright, MakeUpright(std::move(model), order.job.setup, run));
     Job job = order.job;

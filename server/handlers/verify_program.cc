@@ -127,7 +127,7 @@ Job ReadJob(const v1::VerifyProgramRequest& request, const std::vector<Tool>& to
   return job;
 }
 
-struct Answer {
+struct VerifyAnswer {
   v1::Report report;
   std::string leftover_csv, leftover_png;
   std::vector<v1::MeshBlock> mesh;
@@ -312,7 +312,7 @@ absl::StatusOr<std::vector<ToolMotion>> MovesByTool(const Judging& by, const Pro
 
 // The triangles, with what the program leaves whether its lines with / run or not.
 absl::Status MakeMesh(const Judging& by, const Wanted& wanted, const ProgramMotion& motion,
-                      ProgramText program, Answer* answer) {
+                      ProgramText program, VerifyAnswer* answer) {
   PM_ASSIGN_OR_RETURN(const Resolved resolved, Resolve(by.surface, by.job, by.run));
   std::vector<std::vector<ToolMotion>> ways(1);
   PM_ASSIGN_OR_RETURN(ways.front(), MovesByTool(by, motion));
@@ -338,11 +338,11 @@ absl::Status MakeMesh(const Judging& by, const Wanted& wanted, const ProgramMoti
 }
 
 absl::Status Make(const Call& call, const v1::VerifyProgramRequest& request, const VerifyJob& what,
-                  const RunContext& run, Answer* answer) {
+                  const RunContext& run, VerifyAnswer* answer) {
   v1::Report* report = &answer->report;
   Job job = what.job;
   run.Progress("model", 0.0);
-  PM_ASSIGN_OR_RETURN(LoadedModel model, LoadModel(request.source(), "source", run, &call.env->in_flight));
+  PM_ASSIGN_OR_RETURN(LoadedModel model, LoadModel(request.source(), "source", run, ModelsOf(call)));
   PM_RETURN_IF_ERROR(RequireSound(model));
   PM_RETURN_IF_ERROR(run.Check());
   const ProgramText program = TextOf(request, job, what.tools.size(), run);
@@ -401,6 +401,20 @@ bool SendFile(const char* name, const char* media_type, std::string_view bytes, 
   return true;
 }
 
+bool SendAnswer(VerifyAnswer& answer, const Sink<Response>& sink) {
+  if (answer.motion && !SendPathBlocks(*answer.motion, sink)) return false;
+  for (v1::MeshBlock& block : answer.mesh) {
+    Response response;
+    *response.mutable_mesh() = std::move(block);
+    if (!sink(response)) return false;
+  }
+  if (!SendFile("leftover.csv", "text/csv", answer.leftover_csv, sink)) return false;
+  if (!SendFile("leftover.png", "image/png", answer.leftover_png, sink)) return false;
+  Response last;
+  *last.mutable_report() = std::move(answer.report);
+  return sink(last);
+}
+
 // The allowance may stand on the surface beside the holder.
 void CheckHolderClearance(const v1::VerifyProgramRequest& request, double allowance, std::vector<Tool>& tools,
                           FieldErrors& errors) {
@@ -435,29 +449,17 @@ absl::Status HandleVerifyProgram(const Call& call, const v1::VerifyProgramReques
                       ReadOutputs(request.outputs(), {v1::OUTPUT_TESSELLATION, v1::OUTPUT_PATH_BLOCKS}, {}));
   what.wanted.mesh = outputs.contains(v1::OUTPUT_TESSELLATION);
   what.wanted.path_blocks = outputs.contains(v1::OUTPUT_PATH_BLOCKS);
-  const auto beat = [&](std::string_view stage, double fraction) {
+  Work work{.max_threads = request.max_threads()};
+  work.beat = [&](const v1::Progress& progress) {
     Response response;
-    response.mutable_progress()->set_stage(std::string(stage));
-    response.mutable_progress()->set_fraction(fraction);
+    *response.mutable_progress() = progress;
     return sink(response);
   };
-  Answer answer;
-  PM_RETURN_IF_ERROR(RunJobThread(call, request.max_threads(), beat, [&](const RunContext& run) {
-    return Make(call, request, what, run, &answer);
-  }));
-  const auto gone = [] { return absl::CancelledError("the client has gone"); };
-  if (answer.motion && !SendPathBlocks(*answer.motion, sink)) return gone();
-  for (v1::MeshBlock& block : answer.mesh) {
-    Response response;
-    *response.mutable_mesh() = std::move(block);
-    if (!sink(response)) return gone();
-  }
-  const bool sent = SendFile("leftover.csv", "text/csv", answer.leftover_csv, sink) &&
-                    SendFile("leftover.png", "image/png", answer.leftover_png, sink);
-  if (!sent) return gone();
-  Response last;
-  *last.mutable_report() = std::move(answer.report);
-  return sink(last) ? absl::OkStatus() : gone();
+  return RunJobCall(call, work, [&](const RunContext& run) -> absl::Status {
+    VerifyAnswer answer;
+    PM_RETURN_IF_ERROR(Make(call, request, what, run, &answer));
+    return SendAnswer(answer, sink) ? absl::OkStatus() : absl::CancelledError("the client has gone");
+  });
 }
 
 }  // namespace patchmill

@@ -44,18 +44,18 @@ TEST(LoadModel, TheMessageInAFileIsHeld) {
   InFlight in_flight(std::size_t{1} << 20, {});
   const std::string binary = testing::Bump().SerializeAsString(),
                     unknown = testing::Repeated("\xF8\x07\x01", 30'000);
-  EXPECT_TRUE(LoadModel(File("pb", binary), "source", {}, &in_flight).ok());
-  EXPECT_TRUE(LoadModel(File("json", JsonOf(testing::Bump())), "source", {}, &in_flight).ok());
+  EXPECT_TRUE(LoadModel(File("pb", binary), "source", {}, {.in_flight = &in_flight}).ok());
+  EXPECT_TRUE(LoadModel(File("json", JsonOf(testing::Bump())), "source", {}, {.in_flight = &in_flight}).ok());
   const auto refused =
-      LoadModel(File("pb", binary + testing::Repeated(unknown, 2)), "source", {}, &in_flight);
+      LoadModel(File("pb", binary + testing::Repeated(unknown, 2)), "source", {}, {.in_flight = &in_flight});
   EXPECT_THAT(refused.status(),
               StatusIs(absl::StatusCode::kResourceExhausted, HasSubstr("request_bytes_in_flight")));
   EXPECT_TRUE(in_flight.Take(std::size_t{1} << 20).ok());  // nothing is held any more
   const auto all = in_flight.Take(std::size_t{1} << 20);
   for (const auto& file : {File("pb", binary), File("json", JsonOf(testing::Bump()))}) {
-    EXPECT_EQ(LoadModel(file, "source", {}, &in_flight).status().code(),
+    EXPECT_EQ(LoadModel(file, "source", {}, {.in_flight = &in_flight}).status().code(),
               absl::StatusCode::kResourceExhausted);
-    EXPECT_EQ(LoadNetwork(file, "source", {}, &in_flight).status().code(),
+    EXPECT_EQ(LoadNetwork(file, "source", {}, {.in_flight = &in_flight}).status().code(),
               absl::StatusCode::kResourceExhausted);
   }
 }

@@ -83,9 +83,13 @@ class RawStream {
       bytes.append(reinterpret_cast<const char*>(slice.begin()), slice.size());
     return bytes;
   }
-  grpc::Status End() {
+  void Cancel() { context_.TryCancel(); }
+  void WritesDone() {
     call_->WritesDone(nullptr);
     Next();
+  }
+  grpc::Status End() {
+    WritesDone();
     return Finish();
   }
   grpc::Status Finish() {

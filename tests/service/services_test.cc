@@ -12,6 +12,7 @@
 #include <grpcpp/generic/generic_stub.h>
 #include <gtest/gtest.h>
 
+#include "patchmill/v1/status.pb.h"
 #include "server/limits.h"
 #include "tests/service/embedded.h"
 #include "tests/service/requests.h"
@@ -604,28 +605,72 @@ TEST(Limits, AMessageBeyond64MebibytesIsRefusedWithItsSize) {
               RpcStatusIs(StatusCode::RESOURCE_EXHAUSTED, HasSubstr("67108864")));
 }
 
+// One job runs, none may wait: the next one is refused. Calls of milliseconds are not.
 TEST(Limits, JobsAtOnceAreCountedAndOneEndedMakesRoom) {
   ServerOptions options;
   options.max_jobs = 1;
+  options.max_queue = 0;
   Embedded embedded(options);
   grpc::ClientContext context;
   const auto reader = embedded.toolpath->GenerateProgram(&context, testing::LongRequest());
   v1::GenerateProgramResponse event;
-  ASSERT_TRUE(reader->Read(&event));  // accepted: it runs
-  v1::CheckModelResponse response;
-  const grpc::Status refused = embedded.Check(CheckBump(), &response);
+  ASSERT_TRUE(reader->Read(&event));
+  ASSERT_TRUE(reader->Read(&event));  // progress: it runs
+  v1::SplitRegionsRequest request;
+  *request.mutable_job() = BumpJob();
+  v1::SplitRegionsResponse regions;
+  const auto split = [&] {
+    grpc::ClientContext other;
+    return embedded.analysis->SplitRegions(&other, request, &regions);
+  };
+  const grpc::Status refused = split();
   EXPECT_EQ(refused.error_code(), StatusCode::RESOURCE_EXHAUSTED);
   EXPECT_EQ(InfoOf(refused).reason(), "TOO_MANY_JOBS");
+  v1::CheckModelResponse response;
+  EXPECT_TRUE(embedded.Check(CheckBump(), &response).ok());
   context.TryCancel();
   while (reader->Read(&event)) {
   }
   EXPECT_EQ(reader->Finish().error_code(), StatusCode::CANCELLED);
-  grpc::Status status = embedded.Check(CheckBump(), &response);
+  grpc::Status status = split();
   for (int i = 0; i < 100 && !status.ok(); ++i) {
     std::this_thread::sleep_for(20ms);
-    status = embedded.Check(CheckBump(), &response);
+    status = split();
   }
   EXPECT_TRUE(status.ok()) << status.error_message();
+}
+
+// A refusal says when to come again, in the details and to gRPC's own retries.
+TEST(Limits, ARefusalHasRetryInfo) {
+  ServerOptions options;
+  options.max_jobs = 1;
+  options.max_queue = 0;
+  Embedded embedded(options);
+  grpc::ClientContext running;
+  const auto reader = embedded.toolpath->GenerateProgram(&running, testing::LongRequest());
+  v1::GenerateProgramResponse event;
+  ASSERT_TRUE(reader->Read(&event));
+  ASSERT_TRUE(reader->Read(&event));
+  v1::SplitRegionsRequest request;
+  *request.mutable_job() = BumpJob();
+  v1::SplitRegionsResponse regions;
+  grpc::ClientContext context;
+  const grpc::Status refused = embedded.analysis->SplitRegions(&context, request, &regions);
+  v1::Status details;
+  ASSERT_TRUE(details.ParseFromString(refused.error_details()));
+  ASSERT_EQ(details.details_size(), 2);
+  EXPECT_EQ(details.details(1).type_url(), "type.googleapis.com/google.rpc.RetryInfo");
+  v1::RetryInfo retry;
+  ASSERT_TRUE(retry.ParseFromString(details.details(1).value()));
+  EXPECT_GT(retry.retry_delay().seconds(), 0);
+  const auto& trailers = context.GetServerTrailingMetadata();
+  const auto pushback = trailers.find("grpc-retry-pushback-ms");
+  ASSERT_NE(pushback, trailers.end());
+  EXPECT_EQ(std::string(pushback->second.data(), pushback->second.size()), "2000");
+  running.TryCancel();
+  while (reader->Read(&event)) {
+  }
+  (void)reader->Finish();
 }
 
 // Over a port: the in-process transport knows no gentle end.
@@ -638,11 +683,19 @@ TEST(Drain, LetsARunningCallEndAndRefusesNewOnes) {
   std::future<void> drained = std::async(std::launch::async, [&] { embedded.server->Drain(0.7); });
   std::this_thread::sleep_for(200ms);
   EXPECT_NE(drained.wait_for(0s), std::future_status::ready);  // the job is still running
+  // The port stays open, so that everybody learns why.
   v1::CheckModelResponse response;
-  EXPECT_EQ(embedded.Check(CheckBump(), &response).error_code(), StatusCode::UNAVAILABLE);
+  const grpc::Status refused = embedded.Check(CheckBump(), &response);
+  EXPECT_EQ(refused.error_code(), StatusCode::UNAVAILABLE);
+  EXPECT_EQ(InfoOf(refused).reason(), "DRAINING");
+  std::string health;
+  EXPECT_TRUE(AskHealth(embedded.channel, "", &health).ok());
+  EXPECT_EQ(health, std::string("\x08\x02"));
   while (reader->Read(&event)) {
   }
-  EXPECT_NE(reader->Finish().error_code(), StatusCode::OK);  // cut off after its time
+  const grpc::Status ended = reader->Finish();  // cut off after its time
+  EXPECT_EQ(ended.error_code(), StatusCode::UNAVAILABLE);
+  EXPECT_EQ(InfoOf(ended).reason(), "DRAINING");
   EXPECT_EQ(drained.wait_for(testing::kSanitized ? 20s : 2s), std::future_status::ready);
 }
 

@@ -35,7 +35,7 @@ for k in "${!commands[@]}"; do
   run "$k" "$work/expected" || { echo "soak: ${commands[k]}"; cat "$work/expected/$(name_of "$k").log"; exit 1; }
 done
 
-"$bin/patchmilld" --listen 127.0.0.1:0 --max-jobs 6 2> "$work/server.log" &
+"$bin/patchmilld" --listen 127.0.0.1:0 --max-jobs 6 --store-mib 0 2> "$work/server.log" &
 server=$!
 port=
 for _ in $(seq 100); do

@@ -1,0 +1,16 @@
+// The memory that a job will take, estimated before anything of it is computed.
+#pragma once
+
+#include <cstdint>
+
+#include "cam/plan/job.h"
+#include "core/network/patch_model.h"
+
+namespace patchmill {
+
+// Bytes for planning and judging a job. The patches with their trees are counted, and the points of passes over
+// the whole area of the control nets at the step between passes on a plane. It is seldom wrong by more than a
+// factor of three; a job that needs more gets it while there is some. Cost: one pass over the control points.
+std::int64_t EstimateMemory(const PatchModel& model, const Job& job);
+
+}  // namespace patchmill

@@ -1,0 +1,111 @@
+#include "server/places.h"
+
+#include <algorithm>
+
+#include "server/errors.h"
+
+namespace patchmill {
+
+absl::Status Places::CheckOpen() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return draining_ ? DrainingError() : absl::OkStatus();
+}
+
+int Places::running() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return running_;
+}
+
+int Places::waiting() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return static_cast<int>(waiters_.size());
+}
+
+void Places::Drain() {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    draining_ = true;
+  }
+  changed_.notify_all();
+}
+
+void Places::Leave(const std::string& caller) {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    --running_;
+    const auto at = runs_.find(caller);
+    if (--at->second == 0) runs_.erase(at);
+    Choose();
+  }
+  changed_.notify_all();
+}
+
+void Places::Choose() {
+  while (running_ < places_) {
+    Waiter* next = nullptr;
+    int fewest = 0;
+    for (Waiter& waiter : waiters_) {
+      if (waiter.chosen) continue;
+      const auto at = runs_.find(waiter.caller);
+      const int runs = at == runs_.end() ? 0 : at->second;
+      if (next == nullptr || runs < fewest) {
+        next = &waiter;
+        fewest = runs;
+      }
+    }
+    if (next == nullptr) return;
+    next->chosen = true;
+    ++running_;
+    ++runs_[next->caller];
+  }
+}
+
+// The order in which places would be given away if no further call came and all running calls ended in turn is
+// not known: the place counts the calls that have waited longer.
+int Places::PlaceOf(const Waiter& waiter) const {
+  int place = 1;
+  for (const Waiter& other : waiters_) {
+    if (&other == &waiter) break;
+    place += !other.chosen;
+  }
+  return place;
+}
+
+absl::StatusOr<Places::Ticket> Places::Enter(const Waiting& call) {
+  std::unique_lock<std::mutex> lock(mutex_);
+  if (draining_) return DrainingError();
+  const int not_chosen = static_cast<int>(
+      std::count_if(waiters_.begin(), waiters_.end(), [](const Waiter& w) { return !w.chosen; }));
+  if (running_ >= places_ && not_chosen >= queue_) return TooManyJobsError(places_, queue_);
+  const auto self = waiters_.insert(waiters_.end(), Waiter{call.caller});
+  Choose();
+  absl::Status ended;
+  while (!self->chosen) {
+    if (draining_) {
+      ended = DrainingError();
+      break;
+    }
+    changed_.wait_for(lock, call.poll);
+    if (self->chosen) break;
+    const int place = PlaceOf(*self);
+    lock.unlock();  // neither function may hold up others
+    if (call.on_place) call.on_place(place);
+    const bool gone = call.gone && call.gone();
+    lock.lock();
+    if (gone) {
+      ended = absl::CancelledError("the call ended while it waited for a place");
+      break;
+    }
+  }
+  const bool chosen = self->chosen;
+  waiters_.erase(self);
+  lock.unlock();
+  if (chosen) {
+    Ticket ticket(this, call.caller);  // gives the place back if the call has ended meanwhile
+    if (!ended.ok()) return ended;
+    return ticket;
+  }
+  return ended;
+}
+
+}  // namespace patchmill

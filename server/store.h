@@ -1,0 +1,74 @@
+// What the server keeps between calls: models that were uploaded, CAD files that were read, answers of jobs. One
+// store with one limit of memory: what nobody has used for longest is forgotten first.
+#pragma once
+
+#include <any>
+#include <cstddef>
+#include <list>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <string_view>
+#include <tuple>
+
+namespace patchmill {
+
+// What a value of the store is.
+enum class Stored { kModel, kImport, kAnswer };
+
+struct StoreKey {
+  Stored kind = Stored::kModel;
+  std::string caller;  // only this caller can find the value; empty: callers are not told apart
+  std::string digest;  // 32 bytes
+  friend auto operator<=>(const StoreKey&, const StoreKey&) = default;
+};
+
+// Any thread may call it. Values are shared and never change.
+class Store {
+ public:
+  explicit Store(std::size_t limit_bytes) : limit_(limit_bytes) {}
+
+  // Keeps a value of about `bytes`, in place of one with the same key. A value above a quarter of the limit is
+  // not kept: it would drive out all others. `from` is the digest of the model that an answer was made from.
+  template <class T>
+  void Put(const StoreKey& key, std::shared_ptr<const T> value, std::size_t bytes, std::string from = {}) {
+    PutAny(key, std::move(value), bytes, std::move(from));
+  }
+  // The value with this key, or null. It counts as used.
+  template <class T>
+  std::shared_ptr<const T> Find(const StoreKey& key) {
+    const std::any value = FindAny(key);
+    const auto* found = std::any_cast<std::shared_ptr<const T>>(&value);
+    return found == nullptr ? nullptr : *found;
+  }
+  // Forgets a model of a caller, and all answers that were made from it. False: there was no such model.
+  bool ForgetModel(const std::string& caller, const std::string& digest);
+
+  struct Figures {
+    std::size_t values = 0, bytes = 0, limit_bytes = 0;
+    std::size_t found = 0, missed = 0, forgotten = 0;  // since the start
+  };
+  Figures figures() const;
+
+ private:
+  struct Entry {
+    StoreKey key;
+    std::any value;
+    std::size_t bytes = 0;
+    std::string from;
+  };
+  using Entries = std::list<Entry>;
+
+  void PutAny(const StoreKey& key, std::any value, std::size_t bytes, std::string from);
+  std::any FindAny(const StoreKey& key);
+  void Erase(Entries::iterator entry);
+
+  const std::size_t limit_;
+  mutable std::mutex mutex_;
+  Entries entries_;  // used last comes first
+  std::map<StoreKey, Entries::iterator> by_key_;
+  std::size_t bytes_ = 0, found_ = 0, missed_ = 0, forgotten_ = 0;
+};
+
+}  // namespace patchmill
