@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Runs one of the long tests of docs/long_tests.md, each in less than an hour, and writes its row of that page.
 #   scripts/long_tests.sh NAME
-# NAME: soak, whole, asan, asan_passes, asan_jobs, tsan, random, certificates, fuzz, container, coverage, linuxcnc_times, freecad.
+# NAME: soak, clients, requests, whole, asan, asan_passes, asan_jobs, tsan, random, certificates, fuzz, container, coverage, linuxcnc_times, freecad.
 # LIMIT: minutes after which a test is ended, 60 unless it is set; more for a machine that does other work beside.
 # PATCHMILL_BIN: of freecad, a folder with built programs; unset: they are built.
 # SEED: of soak, random and certificates; another one each day unless it is set. MINUTES: of soak, 30 unless it is set.
@@ -26,6 +26,14 @@ build() {  # build PRESET [targets]
 soak() {
   build release patchmill patchmilld
   tests/service/soak.sh build/release/bin "$minutes" "$seed"
+}
+clients() {  # 64 clients of one server
+  build release patchmilld
+  python3 tests/service/mixed_clients.py build/release/bin/patchmilld --seed "$seed"
+}
+requests() {  # ten thousand random requests, under the sanitizers
+  build asan service_tests
+  PATCHMILL_FUZZ_JOBS=10000 PATCHMILL_FUZZ_SEED="$seed" build/asan/tests/service_tests --gtest_filter='RandomRequests.*'
 }
 whole() {  # the tests of CI with every value of their lists
   build release
@@ -103,7 +111,7 @@ freecad() {  # the add-on in Debian's FreeCAD
 
 case "$name" in
   soak) command="MINUTES=$minutes SEED=$seed scripts/long_tests.sh soak" ;;
-  random | certificates) command="SEED=$seed scripts/long_tests.sh $name" ;;
+  clients | requests | random | certificates) command="SEED=$seed scripts/long_tests.sh $name" ;;
   whole | asan | asan_passes | asan_jobs | tsan | fuzz | container | coverage | linuxcnc_times | freecad) command="scripts/long_tests.sh $name" ;;
   *)
     sed -n '2,7s/^# \?//p' "$0" >&2
@@ -124,7 +132,7 @@ if [ "${LONG_TESTS_INNER:-}" != "$name" ]; then
     *) result="**failed**, $took min" ;;
   esac
   # What the test says about itself in its last line, where it has one.
-  said=$(grep -E '^(soak|lines|TOTAL|linuxcnc_times|freecad)' "$log" | tail -1 | tr -s ' |' ' ' || true)
+  said=$(grep -E '^(soak|mixed_clients|lines|TOTAL|linuxcnc_times|freecad)' "$log" | tail -1 | tr -s ' |' ' ' || true)
   commit=$(git rev-parse --short HEAD)
   [ -z "$(git status --porcelain --untracked-files=no)" ] || commit="$commit, changed"
   row="| $name | \`$command\` | $commit | $(date +%F) | $result${said:+; $said} |"

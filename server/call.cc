@@ -115,16 +115,23 @@ class Memory {
                               static_cast<double>(estimate));
   }
   MemoryBudget& budget() { return budget_; }
+  // RESOURCE_EXHAUSTED: what the job had asked for when there was no more.
+  absl::Status Exceeded() const {
+    return JobMemoryError(static_cast<double>(budget_.granted()), static_cast<double>(needed_));
+  }
 
  private:
   bool Take(std::int64_t bytes) {
-    if (!ledger_.Take(bytes)) return false;
+    if (!ledger_.Take(bytes)) {
+      needed_ = std::max(needed_, budget_.granted() + bytes);
+      return false;
+    }
     taken_ += bytes;
     return true;
   }
 
   MemoryLedger& ledger_;
-  std::int64_t taken_ = 0;  // the budget asks one call at a time
+  std::int64_t taken_ = 0, needed_ = 0;  // the budget asks one call at a time
   MemoryBudget budget_;
 };
 
@@ -162,10 +169,7 @@ absl::Status RunInThread(const Call& call, const Work& work, JobProgress& progre
   }
   lock.unlock();
   worker.Join();
-  if (memory.budget().Exceeded()) {
-    return JobMemoryError(static_cast<double>(memory.budget().granted()),
-                          static_cast<double>(memory.budget().used()));
-  }
+  if (memory.budget().Exceeded()) return memory.Exceeded();
   if (call.env->stopped.load() && !board.status.ok()) return DrainingError();
   // A cancel counts even if the work finished at the same time.
   if (call.cancelled()) run.Cancel();

@@ -140,8 +140,8 @@ absl::Status TooMuchMemoryError(double limit, double taken, double wanted) {
                   info);
 }
 
-absl::Status JobMemoryError(double granted, double used) {
-  return LimitError("job_memory_bytes", granted, used,
+absl::Status JobMemoryError(double granted, double needed) {
+  return LimitError("job_memory_bytes", granted, needed,
                     "the job was ended because it needs more memory than the server has for it");
 }
 

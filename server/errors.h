@@ -48,7 +48,7 @@ absl::Status TooManyBytesError(double limit, double actual,
 absl::Status TooMuchMemoryError(double limit, double taken, double wanted);
 absl::Status DrainingError();
 // A job that has taken more memory than it could be granted.
-absl::Status JobMemoryError(double granted, double used);
+absl::Status JobMemoryError(double granted, double needed);
 // The bytes of the request do not form a message of its type.
 absl::Status RequestUnreadableError(std::string_view why);
 absl::Status ModelNotCachedError();

@@ -59,10 +59,19 @@ class GrpcServer final : public RunningServer {
         health_(env_.in_flight, options.max_write_seconds),
         reflection_(MakeReflectionService(Names(), env_.in_flight, options.max_write_seconds)) {
     grpc::ServerBuilder builder;
-    builder.SetMaxReceiveMessageSize(static_cast<int>(limits::kMaxMessageBytes));
+    // Messages above the limit are refused by the services, whose errors have details.
+    builder.SetMaxReceiveMessageSize(static_cast<int>(limits::kMaxMessageBytes + limits::kMaxMessageBytes / 4));
     builder.SetMaxSendMessageSize(static_cast<int>(limits::kMaxMessageBytes));
     builder.AddChannelArgument(GRPC_ARG_MAX_CONCURRENT_STREAMS, limits::kMaxCallsPerConnection);
     builder.AddChannelArgument(GRPC_ARG_SERVER_HANDSHAKE_TIMEOUT_MS, 1000 * limits::kHandshakeSeconds);
+    // Behind proxies and address translation clients ping, also while they wait for a job without progress.
+    builder.AddChannelArgument(GRPC_ARG_HTTP2_MIN_RECV_PING_INTERVAL_WITHOUT_DATA_MS,
+                               1000 * limits::kClientPingSeconds);
+    builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_PERMIT_WITHOUT_CALLS, 1);
+    builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_TIME_MS, 1000 * limits::kPingSeconds);
+    builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_TIMEOUT_MS, 1000 * limits::kPingAnswerSeconds);
+    builder.AddChannelArgument(GRPC_ARG_HTTP2_MAX_PINGS_WITHOUT_DATA, 0);
+    builder.AddChannelArgument(GRPC_ARG_MAX_CONNECTION_AGE_MS, 3'600'000 * limits::kConnectionHours);
     // gRPC decompresses a message before it checks the size. The result may be a thousand times as large.
     for (const auto packed : {GRPC_COMPRESS_DEFLATE, GRPC_COMPRESS_GZIP}) {
       builder.SetCompressionAlgorithmSupportStatus(packed, false);

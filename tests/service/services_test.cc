@@ -597,12 +597,13 @@ TEST(Health, AnswersForTheServerAndEachService) {
 }
 
 TEST(Limits, AMessageBeyond64MebibytesIsRefusedWithItsSize) {
-  Embedded embedded;
+  const Embedded embedded = testing::EmbeddedOnAPort();
   v1::CheckModelRequest request = CheckBump();
   request.mutable_source()->mutable_file()->set_content(std::string(limits::kMaxMessageBytes + 1, ' '));
   v1::CheckModelResponse response;
-  EXPECT_THAT(embedded.Check(request, &response),
-              RpcStatusIs(StatusCode::RESOURCE_EXHAUSTED, HasSubstr("67108864")));
+  const grpc::Status status = embedded.Check(request, &response);
+  EXPECT_THAT(status, RpcStatusIs(StatusCode::RESOURCE_EXHAUSTED, HasSubstr("67108864")));
+  EXPECT_EQ(InfoOf(status).limit(), "message_bytes");
 }
 
 // One job runs, none may wait: the next one is refused. Calls of milliseconds are not.
