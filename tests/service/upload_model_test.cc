@@ -65,6 +65,7 @@ v1::GenerateProgramRequest TeapotRequest(const std::string& content) {
   v1::ModelFile& file = *request.mutable_job()->mutable_source()->mutable_file();
   file.set_format("bpt");
   file.set_content(content);
+  request.mutable_job()->mutable_operations(0)->clear_heights();
   request.mutable_job()->mutable_setup()->set_scale(5.0);
   request.mutable_job()->mutable_setup()->set_up(v1::UP_AXIS_Y);
   request.add_outputs(v1::OUTPUT_PROGRAM);
