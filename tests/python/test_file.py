@@ -69,8 +69,9 @@ class Files(unittest.TestCase):
         (self.folder / "b").symlink_to("a")
         (self.folder / "deep").mkdir()
         for name, error in (("a", OSError), ("deep", IsADirectoryError), ("none/part.ngc", FileNotFoundError)):
-            with self.assertRaises(error):
+            with self.assertRaises(error) as caught:
                 write_file(self.folder / name, PROGRAM)
+            self.assertEqual(str(caught.exception.filename), str(self.folder / name))
         part = self.folder / "part.ngc"
         part.write_bytes(b"old")
         with self.assertRaises(TypeError):

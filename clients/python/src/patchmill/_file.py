@@ -66,6 +66,8 @@ def _put(target: pathlib.Path, content: bytes, existing: os.stat_result | None) 
                 _take_mode(file.fileno(), existing)
             os.fsync(file.fileno())
         os.replace(temporary, target)
+    except OSError as error:
+        raise OSError(error.errno, error.strerror, os.fspath(target)) from None
     finally:
         temporary.unlink(missing_ok=True)
 
