@@ -1,8 +1,6 @@
 #include "clients/cli/connection.h"
 
 #include <chrono>
-#include <csignal>
-#include <mutex>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -71,34 +69,6 @@ absl::StatusOr<Connection> Connect(const CommonOptions& options) {
   arguments.SetMaxSendMessageSize(static_cast<int>(kMaxMessageBytes));
   connection.channel = grpc::CreateCustomChannel(options.server, *credentials, arguments);
   return connection;
-}
-
-InterruptWatch::InterruptWatch() {
-  sigset_t signals;
-  sigemptyset(&signals);
-  sigaddset(&signals, SIGINT);
-  sigaddset(&signals, SIGTERM);
-  pthread_sigmask(SIG_BLOCK, &signals, nullptr);
-  thread_ = std::thread([this, signals] {
-    const timespec tick{0, 50'000'000};
-    while (!stop_.load()) {
-      if (sigtimedwait(&signals, nullptr, &tick) < 0) continue;
-      interrupted_.store(true);
-      const std::lock_guard<std::mutex> lock(mutex_);
-      if (context_ != nullptr) context_->TryCancel();
-    }
-  });
-}
-
-InterruptWatch::~InterruptWatch() {
-  stop_.store(true);
-  thread_.join();
-}
-
-void InterruptWatch::Attach(grpc::ClientContext* context) {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  context_ = context;
-  if (context_ != nullptr && interrupted()) context_->TryCancel();
 }
 
 CallScope::CallScope(const CommonOptions& options, InterruptWatch& watch) : watch_(watch) {
