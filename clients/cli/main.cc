@@ -12,7 +12,7 @@
 #include "clients/cli/help_pages.h"
 #include "clients/cli/option_groups.h"
 #include "clients/cli/shared_options.h"
-#include "clients/cli/unknown_words.h"
+#include "clients/cli/usage_fault.h"
 #include "server/serve_flags.h"
 #include "server/server.h"
 
@@ -56,12 +56,10 @@ constexpr CommandEntry kEntries[] = {
      AddFair},
 };
 
-// The words of the command line that nothing has, with those that may be meant, or what else is wrong with
-// it.
+// --help and --version are no errors.
 int UsageError(const CLI::App& app, const CLI::ParseError& error) {
-  const std::string unknown = UnknownWords(app);
-  if (unknown.empty()) return app.exit(error) == 0 ? 0 : 2;
-  fmt::print(stderr, "{}Run with --help for more information.\n", unknown);
+  if (error.get_exit_code() == 0) return app.exit(error);
+  fmt::print(stderr, "{}", UsageFault(app, error));
   return 2;
 }
 

@@ -84,6 +84,7 @@ absl::StatusOr<v1::VerifyProgramRequest> MakeRequest(const VerifyOptions& option
   if (!source.ok()) return source.status();
   absl::StatusOr<std::string> program = ReadWholeFile(options.program);
   if (!program.ok()) return program.status();
+  NameProgram(options.program);
   if (program->empty()) return absl::InvalidArgumentError(fmt::format("{} is empty", options.program));
   absl::StatusOr<v1::Setup> setup = MakeSetup(options.setup);
   if (!setup.ok()) return setup.status();

@@ -43,6 +43,65 @@ TEST(CliUsage, NamesTheNearestCommandAndOption) {
   EXPECT_THAT(error({"xyzzy"}), HasSubstr("xyzzy is no command\n"));
 }
 
+TEST(CliUsage, FaultsAreSaidInPlainWords) {
+  const TempDir dir;
+  const std::string model = dir.Write("bump.pb", testing::Bump().SerializeAsString());
+  const struct {
+    std::vector<std::string> arguments;
+    std::string message;
+  } cases[] = {
+      {{}, "patchmill: a command is missing; there are mill, check,"},
+      {{"mill"}, "patchmill mill: MODEL is missing\n  for example: patchmill mill part.step -o part.ngc"},
+      {{"mill", model}, "patchmill mill: --output is missing\n  for example: "},
+      {{"mill", model, "-o"}, "patchmill mill: --output needs a value\n'patchmill mill --help' lists"},
+      {{"mill", model, "-o", "x.ngc", "--feed"}, "--feed needs a value\n"},
+      {{"mill", model, "-o", "x.ngc", "--feed", "1", "--feed", "2"},
+       "--feed is given 2 times; give it once\n"},
+      {{"mill", model, "-o", "x.ngc", "--translate", "1", "2"}, "--translate has 2 values; must have 3\n"},
+      {{"mill", model, "-o", "x.ngc", "--coolant", "flod"},
+       "--coolant flod; must be one of off, flood, mist, air; did you mean flood?\n"},
+      {{"mill", model, "-o", "x.ngc", "--threads", "-1"}, "--threads -1; must be in [0, 64]\n"},
+      {{"completion", "zsh"}, "patchmill completion: SHELL zsh; must be bash\n"},
+      {{"check", model, "--server", "localhost"}, "--server localhost; must be HOST:PORT"},
+      {{"check", model, "--server", "localhost:http"}, "--server localhost:http; must be HOST:PORT"},
+      {{"mill", model, "-o", "x.ngc", "--coolant", std::string(100'000, 'x')}, "--coolant: xxx"},
+  };
+  for (const auto& c : cases) {
+    const Finished run = Patchmill(c.arguments);
+    EXPECT_EQ(run.status, 2) << c.message;
+    EXPECT_THAT(run.err, HasSubstr(c.message));
+    EXPECT_EQ(run.out, "") << c.message;
+  }
+}
+
+// The service names fields; the user has files and options.
+TEST(CliUsage, FaultsOfInputsNameTheirFileOrOption) {
+  const TempDir dir;
+  const std::string model = dir.Write("bump.pb", testing::Bump().SerializeAsString()),
+                    square = dir.Write("square.bv", "5\n1 1\n0 0 0\n0 1 0\n1 0 0\n1 1 0\n");
+  const struct {
+    std::vector<std::string> arguments;
+    std::string message;
+  } cases[] = {
+      {{"verify", model, square, "--tool-diameter", "6"}, "patchmill: " + square + ": line 1: "},
+      {{"edit", square, "-o", dir / "x.json"},
+       "patchmill: " + square + ": source.file.format = \"bv\"; must be json"},
+      {{"fair", square, "-o", dir / "x.csv"}, "patchmill: " + square + ": unknown format \"bv\" of a curve"},
+      {{"evaluate", square, "--at", "7,0.5,0.5"}, "patchmill: --at: patch_index[0] = 7; must be in [0, 0]"},
+      {{"mill", model, "-o", dir / "x.ngc", "--scallop", "-1", "--floor", "1e9", "--bend", "90"},
+       "patchmill: --scallop: job.operations[0].scallop_mm = -1; must be "},
+  };
+  for (const auto& c : cases) {
+    const Finished run = Patchmill(c.arguments);
+    EXPECT_EQ(run.status, 2) << c.message;
+    EXPECT_THAT(run.err, HasSubstr(c.message));
+  }
+  // All wrong fields are named in one round.
+  const Finished all = Patchmill({"mill", model, "-o", dir / "x.ngc", "--scallop", "-1", "--bend", "90"});
+  EXPECT_THAT(all.err, HasSubstr("\n  --bend: job.operations[0].zigzag_bend_deg = 90; must be "));
+  EXPECT_THAT(all.err, Not(HasSubstr(" more")));
+}
+
 TEST(CliUsage, HelpIsGroupedAndHasAnExample) {
   for (const std::string& command : kCommands) {
     const Finished run = Patchmill({command, "--help"});
