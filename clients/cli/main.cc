@@ -8,9 +8,11 @@
 #include <fmt/format.h>
 
 #include "clients/cli/commands.h"
+#include "clients/cli/completion.h"
 #include "clients/cli/default_file.h"
 #include "clients/cli/help_pages.h"
 #include "clients/cli/option_groups.h"
+#include "clients/cli/posts.h"
 #include "clients/cli/shared_options.h"
 #include "clients/cli/usage_fault.h"
 #include "server/serve_flags.h"
@@ -108,15 +110,16 @@ int Main(int argc, char** argv) {
     return UsageError(app, error);
   }
   if (serve->parsed()) return Serve(server);
-  if (completion->parsed()) {
-    fmt::print("{}", BashCompletion(app));
-    return 0;
-  }
   if (man->parsed()) {
     fmt::print("{}", ManPage(app, kVersion));
     return 0;
   }
   InterruptWatch watch;
+  if (completion->parsed()) {
+    const absl::StatusOr<std::vector<std::string>> posts = PostNames(CommonOptions(), watch);
+    if (posts.ok()) fmt::print("{}", BashCompletion(app, *posts));
+    return ExitStatus(posts.status());
+  }
   for (const auto& [command, run] : commands) {
     if (!command->parsed()) continue;
     const std::vector<std::string> idle = GivenWithoutEffect(*command);

@@ -6,6 +6,10 @@
 #include <gmock/gmock.h>
 #include <google/protobuf/util/json_util.h>
 #include <gtest/gtest.h>
+#include <poll.h>
+#include <pty.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include "tests/service/patchmill.h"
 #include "tests/service/requests.h"
@@ -244,22 +248,110 @@ TEST_F(CliDefaults, AMissingUnitAndASlipSayWhatToWrite) {
   EXPECT_THAT(slip.err, HasSubstr("Did you mean degree_u?"));
 }
 
-TEST(CliPages, CompleteCommandsOptionsAndValues) {
-  TempDir dir;
+// The words that the script offers at the end of a line, which bash has cut into these words.
+std::string Offered(const std::string& line, const std::string& folder) {
+  const TempDir dir;
   const std::string script = dir.Write("completion.bash", Patchmill({"completion", "bash"}).out);
-  const auto complete = [&](const std::string& line) {
-    const std::string code = "source " + script + "; COMP_WORDS=(" + line +
-                             "); COMP_CWORD=$((${#COMP_WORDS[@]} - 1)); _patchmill; echo \"${COMPREPLY[@]}\"";
-    const Finished run = patchmill::testing::Run({"/bin/bash", "-c", code});
-    EXPECT_EQ(run.status, 0) << run.err;
-    return run.out;
-  };
-  EXPECT_EQ(complete("patchmill mi"), "mill\n");
-  EXPECT_EQ(complete("patchmill mill --scal"), "--scallop --scale\n");
-  EXPECT_EQ(complete("patchmill mill --coolant f"), "flood\n");
-  EXPECT_EQ(complete("patchmill mill " + dir / "compl"), dir / "completion.bash" + "\n");
+  const std::string code =
+      "cd '" + folder + "' && source " + script + "; COMP_WORDS=(" + line +
+      "); COMP_CWORD=$((${#COMP_WORDS[@]} - 1)); _patchmill; printf '%s,' \"${COMPREPLY[@]}\"";
+  const Finished run = patchmill::testing::Run({"/bin/bash", "-c", code});
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_EQ(run.err, "");
+  return run.out;
+}
+
+TEST(CliPages, CompleteCommandsOptionsAndValues) {
+  const TempDir dir;
+  const auto offered = [&](const std::string& line) { return Offered(line, dir / ""); };
+  EXPECT_EQ(offered("patchmill mi"), "mill,");
+  EXPECT_EQ(offered("patchmill mill --scal"), "--scallop,--scale,");
+  EXPECT_EQ(offered("patchmill mill --coolant f"), "flood,");
+  EXPECT_EQ(offered("patchmill mill part.json --coolant = f"), "flood,");
+  EXPECT_EQ(offered("patchmill mill part.json --coolant ="), "off,flood,mist,air,");
+  EXPECT_EQ(offered("patchmill completion b"), "bash,");
   for (const std::string& command : kCommands)
-    EXPECT_THAT(complete("patchmill " + command.substr(0, command.size() - 1)), HasSubstr(command));
+    EXPECT_THAT(offered("patchmill " + command.substr(0, command.size() - 1)), HasSubstr(command));
+  // The defaults of a shop may stand before the command, and may be named as one.
+  EXPECT_EQ(offered("patchmill --config shop.ini mi"), "mill,");
+  EXPECT_EQ(offered("patchmill --config = mill mi"), "mill,");
+  EXPECT_EQ(offered("patchmill --config shop.ini mill --coolant f"), "flood,");
+}
+
+TEST(CliPages, CompletePostsByNameAndByFile) {
+  const TempDir dir;
+  dir.Write("fast mill.post", "");
+  dir.Write("folder", "");
+  const auto offered = [&](const std::string& line) { return Offered(line, dir / ""); };
+  std::string names;
+  const std::string list = Patchmill({"posts"}).out;
+  const std::regex name("\n([a-z0-9]+) ");
+  for (std::sregex_iterator it(list.begin(), list.end(), name), end; it != end; ++it)
+    names += (*it)[1].str() + ",";
+  EXPECT_THAT(names, HasSubstr("fanuc,"));
+  EXPECT_EQ(offered("patchmill mill --post ''"), names + "fast mill.post,./folder,");
+  EXPECT_EQ(offered("patchmill mill --post fa"), "fanuc,fast mill.post,");
+  EXPECT_EQ(offered("patchmill mill --post = fan"), "fanuc,");
+  EXPECT_EQ(offered("patchmill verify a.json a.ngc --dialect gr"), "grbl,");
+  EXPECT_EQ(offered("patchmill posts hei"), "heidenhain,");
+}
+
+// A line as it is typed at a terminal, with tabs; what bash then runs instead of patchmill.
+std::string Typed(const std::string& line, const std::string& folder) {
+  const TempDir dir;
+  const std::string script = dir.Write("completion.bash", Patchmill({"completion", "bash"}).out);
+  int terminal = -1;
+  const pid_t shell = forkpty(&terminal, nullptr, nullptr, nullptr);
+  if (shell == 0) {
+    setenv("TERM", "dumb", 1);
+    setenv("PS1", "", 1);
+    if (chdir(folder.c_str()) == 0) execl("/bin/bash", "bash", "--norc", "--noprofile", "-i", nullptr);
+    _exit(127);
+  }
+  std::string setting = "stty -echo; bind 'set bell-style none'; source " + script +
+                        "; patchmill() { printf '<%s>' ran \"$@\"; echo; exit; }; echo ready\n";
+  std::string shown;
+  const auto wait = [&](const std::string& text) {
+    pollfd event{terminal, POLLIN, 0};
+    char bytes[4096];
+    while (shown.find(text) == shown.npos && poll(&event, 1, 20'000) > 0) {
+      const ssize_t n = read(terminal, bytes, sizeof bytes);
+      if (n <= 0) break;
+      shown.append(bytes, static_cast<std::size_t>(n));
+    }
+  };
+  EXPECT_EQ(write(terminal, setting.data(), setting.size()), static_cast<ssize_t>(setting.size()));
+  wait("ready\r\n");
+  const std::string keys = line + "\n";
+  EXPECT_EQ(write(terminal, keys.data(), keys.size()), static_cast<ssize_t>(keys.size()));
+  wait("<ran>");
+  wait(">\r\n");
+  kill(shell, SIGKILL);
+  waitpid(shell, nullptr, 0);
+  close(terminal);
+  const std::size_t from = shown.rfind("<ran>");
+  return from == shown.npos ? shown : shown.substr(from, shown.find('\r', from) - from);
+}
+
+TEST(CliPages, CompleteFilesWithBlanksWhole) {
+  const TempDir dir;
+  dir.Write("my part.json", "");
+  dir.Write("shop defaults.ini", "");
+  dir.Write("fast mill.post", "");
+  std::filesystem::create_directory(dir / "new parts");
+  dir.Write("new parts/door handle.step", "");
+  const auto typed = [&](const std::string& line) { return Typed(line, dir / ""); };
+  EXPECT_EQ(typed("patchmill check my\t"), "<ran><check><my part.json>");
+  EXPECT_EQ(typed("patchmill che\t ne\tdo\t--qui\t"), "<ran><check><new parts/door handle.step><--quiet>");
+  EXPECT_EQ(typed("patchmill check \"new p\tdo\t"), "<ran><check><new parts/door handle.step>");
+  EXPECT_EQ(typed("patchmill --config sh\tmi\t my\t"),
+            "<ran><--config><shop defaults.ini><mill><my part.json>");
+  EXPECT_EQ(typed("patchmill mill 'my part.json' --config sh\t"),
+            "<ran><mill><my part.json><--config><shop defaults.ini>");
+  EXPECT_EQ(typed("patchmill mill my\t--only 'lid left' --post fas\t"),
+            "<ran><mill><my part.json><--only><lid left><--post><fast mill.post>");
+  EXPECT_EQ(typed("patchmill mill my\t--only 'lid left' --coolant fl\t"),
+            "<ran><mill><my part.json><--only><lid left><--coolant><flood>");
 }
 
 TEST(CliPages, TheManualHasAllCommandsAndOptions) {
