@@ -146,9 +146,12 @@ class Trouble(unittest.TestCase):
         for code, details, kind in ((grpc.StatusCode.RESOURCE_EXHAUSTED, "larger than max", pm.LimitError),
                                     (grpc.StatusCode.UNAVAILABLE, "failed to connect to all addresses", pm.ServerUnreachableError),
                                     (grpc.StatusCode.UNAVAILABLE, "Socket closed", pm.ServerLostError),
+                                    (grpc.StatusCode.UNAVAILABLE, "Cancelling all calls", pm.ServerLostError),
                                     (grpc.StatusCode.CANCELLED, "Cancelled", pm.JobCancelledError),
                                     (grpc.StatusCode.UNKNOWN, "what", pm.CallError)):
             self.assertIs(type(_status.error_of(Status(code, details), "there")), kind)
+        shut_down = _status.error_of(Status(grpc.StatusCode.UNAVAILABLE, "Cancelling all calls"), "there")
+        self.assertEqual(str(shut_down), "The server at there shut down before the call was done.")
 
 
 class OwnServer(unittest.TestCase):
