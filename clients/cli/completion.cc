@@ -4,23 +4,12 @@
 #include <absl/strings/str_replace.h>
 #include <fmt/format.h>
 
+#include "clients/cli/option_value.h"
+
 namespace patchmill::cli {
 namespace {
 
-// The words of "TEXT:{auto,contour,zigzag}"; empty if the values are not words of a list.
-std::vector<std::string> ChoicesOf(const CLI::Option& option) {
-  const std::string type = option.get_type_name();
-  const std::size_t open = type.find('{'), close = type.find('}');
-  if (open == type.npos || close == type.npos || close < open) return {};
-  return CLI::detail::split(type.substr(open + 1, close - open - 1), ',');
-}
-
 bool IsListed(const CLI::Option& option) { return !option.get_group().empty(); }
-
-bool TakesNumber(const CLI::Option& option) {
-  const std::string type = option.get_type_name();
-  return type.rfind("FLOAT", 0) == 0 || type.rfind("INT", 0) == 0 || type.rfind("UINT", 0) == 0;
-}
 
 // Whether a value may be the name of a post: --post, --dialect, and the argument of `posts`.
 bool TakesPost(const CLI::App& command, const CLI::Option& option) {

@@ -73,6 +73,8 @@ std::string ServerTrouble(const grpc::Status& status, const std::string& server)
        {"failed to connect", "DNS resolution failed", "Failed to pick", "connections to all"}) {
     if (absl::StartsWith(message, begin)) return fmt::format("no server answers at {}: {}", server, message);
   }
+  if (message == "Cancelling all calls")  // gRPC's word for the end of the time to drain
+    return fmt::format("{} shut down before the call was done", server);
   return fmt::format("the connection to {} broke while the call ran: {}", server, message);
 }
 

@@ -4,7 +4,10 @@
 
 #include <absl/strings/str_join.h>
 #include <absl/strings/str_replace.h>
+#include <absl/strings/str_split.h>
 #include <fmt/format.h>
+
+#include "clients/cli/option_value.h"
 
 namespace patchmill::cli {
 namespace {
@@ -32,12 +35,9 @@ std::string CommandSection(const CLI::App& command) {
   for (const CLI::Option* option : command.get_options()) {
     if (!IsListed(*option)) continue;
     page += fmt::format(".TP\n\\fB{}\\fR", Roff(NamesOf(*option)));
-    if (option->get_items_expected_max() > 0)
-      page += fmt::format(" \\fI{}\\fR", Roff(option->get_type_name()));
-    page += "\n" + Roff(option->get_description());
-    if (!option->get_default_str().empty())
-      page += fmt::format(" (default {})", Roff(option->get_default_str()));
-    page += "\n";
+    if (const std::string value = ValueName(*option); !value.empty())
+      page += fmt::format(" \\fI{}\\fR", Roff(value));
+    page += "\n" + Roff(DescriptionOf(*option)) + "\n";
   }
   return page;
 }
@@ -51,7 +51,9 @@ std::string ManPage(const CLI::App& app, const std::string& version) {
   page += ".SH SYNOPSIS\n.B patchmill\n\\fICOMMAND\\fR [\\fIOPTIONS\\fR] ...\n.SH COMMANDS\n";
   for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
     page += CommandSection(*command);
-  page += fmt::format(".SH EXIT STATUS\n{}\n", Roff(app.get_footer()));
+  page += ".SH EXIT STATUS\n";
+  const std::vector<std::string> lines = absl::StrSplit(app.get_footer(), '\n');
+  for (std::size_t k = 1; k < lines.size(); ++k) page += Roff(lines[k]) + "\n.br\n";  // below the title
   return page;
 }
 

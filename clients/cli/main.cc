@@ -22,6 +22,11 @@ namespace patchmill::cli {
 namespace {
 
 constexpr char kVersion[] = "patchmill " PATCHMILL_VERSION;
+constexpr char kExitStatus[] =
+    "Exit status:\n"
+    "  0  the command is done\n"
+    "  1  the job could not be done, or a verification failed\n"
+    "  2  the usage is wrong, or the input is unreadable";
 
 // A command of the command line: how it is called, what it does, and a call of it.
 struct CommandEntry {
@@ -67,14 +72,14 @@ int UsageError(const CLI::App& app, const CLI::ParseError& error) {
 
 int Main(int argc, char** argv) {
   CLI::App app("patchmill: verified ball-end-mill programs from free-form patch models", "patchmill");
-  app.set_version_flag(
-      "--version", std::string(kVersion) +
-                       "\nSTEP and IGES are read by patchmill-import, which uses Open CASCADE Technology");
+  FormatHelp(app);
+  app.set_help_flag("-h,--help", "print this help");
+  app.set_version_flag("--version",
+                       std::string(kVersion) +
+                           "\nSTEP and IGES are read by patchmill-import, which uses Open CASCADE Technology",
+                       "print the version");
   app.require_subcommand(1);
-  app.footer(
-      "Exit status: 0 the command is done; 1 the job could not be done, or a verification failed; 2 the "
-      "usage "
-      "is wrong, or the input is unreadable.");
+  app.footer(kExitStatus);
   std::string config;  // taken from the arguments before they are parsed; here for --help
   app.add_option(
       "--config", config,
@@ -86,7 +91,7 @@ int Main(int argc, char** argv) {
     commands[command] = entry.add(*command);
     of_name[entry.name] = command;
     GroupOptions(*command);
-    command->footer(fmt::format("Example:\n  patchmill {}\n\n{}", entry.example, app.get_footer()));
+    command->footer(fmt::format("Example:\n  patchmill {}\n\n{}", entry.example, kExitStatus));
   }
   for (const char* name : {"regions", "reach", "verify"}) AcceptOptionsOf(*of_name["mill"], *of_name[name]);
   CLI::App* serve = app.add_subcommand("serve", "run the service (also as patchmilld)");
@@ -97,6 +102,9 @@ int Main(int argc, char** argv) {
   std::string shell = "bash";
   completion->add_option("SHELL", shell, "the shell")->check(CLI::IsMember({"bash"}))->capture_default_str();
   CLI::App* man = app.add_subcommand("man", "print the manual page, for man -l -");
+
+  for (CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
+    command->group("Commands");
 
   absl::StatusOr<std::vector<std::string>> arguments = WithDefaults(app, {argv + 1, argv + argc});
   if (!arguments.ok()) {

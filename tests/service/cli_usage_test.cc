@@ -1,5 +1,6 @@
 // The command line as people type it: slips, defaults of a shop, pages made of the options.
 #include <regex>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -104,6 +105,32 @@ TEST(CliUsage, FaultsOfInputsNameTheirFileOrOption) {
   const Finished all = Patchmill({"mill", model, "-o", dir / "x.ngc", "--scallop", "-1", "--bend", "90"});
   EXPECT_THAT(all.err, HasSubstr("\n  --bend: job.operations[0].zigzag_bend_deg = 90; must be "));
   EXPECT_THAT(all.err, Not(HasSubstr(" more")));
+}
+
+// Not in the words of the library that reads the command line, and no wider than a page.
+TEST(CliUsage, HelpNamesValuesPlainly) {
+  const std::string mill = Patchmill({"mill", "--help"}).out;
+  EXPECT_THAT(mill, HasSubstr("\n  --scallop NUMBER "));
+  EXPECT_THAT(mill, HasSubstr("\n  --strategy auto|contour|zigzag\n"));
+  EXPECT_THAT(mill, HasSubstr("\n  -o,--output FILE "));
+  EXPECT_THAT(mill, HasSubstr("\n  --translate X,Y,Z "));
+  EXPECT_THAT(mill, HasSubstr("; default linuxcnc\n"));
+  EXPECT_THAT(mill, HasSubstr("; needs --boundary\n"));
+  const std::string man = Patchmill({"man"}).out;
+  EXPECT_THAT(man, HasSubstr("\\fINUMBER\\fR\nscallop (cusp) height"));
+  std::vector<std::string> pages = {man};
+  for (const std::string& command : kCommands) {
+    pages.push_back(Patchmill({command, "--help"}).out);
+    std::istringstream lines(pages.back());
+    for (std::string line; std::getline(lines, line);) {
+      const bool is_whole = line.find(' ', 28) == std::string::npos;  // a word that cannot be broken
+      EXPECT_TRUE(line.size() <= 100 || is_whole || line.rfind("  patchmill", 0) == 0) << line;
+    }
+  }
+  for (const std::string& page : pages) {
+    for (const char* word : {"FLOAT", "INT:", "TEXT:", "REQUIRED", "Excludes", "Subcommand", "default ["})
+      EXPECT_EQ(page.find(word), std::string::npos) << word;
+  }
 }
 
 TEST(CliUsage, HelpIsGroupedAndHasAnExample) {
