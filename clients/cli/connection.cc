@@ -1,10 +1,10 @@
 #include "clients/cli/connection.h"
 
 #include <chrono>
-#include <csignal>
-#include <mutex>
 #include <string_view>
 
+#include <absl/strings/match.h>
+#include <absl/strings/numbers.h>
 #include <fmt/format.h>
 #include <grpcpp/channel.h>
 #include <grpcpp/create_channel.h>
@@ -13,21 +13,79 @@
 
 #include "clients/cli/input_file.h"
 #include "clients/cli/option_names.h"
+#include "patchmill/v1/status.pb.h"
 
 namespace patchmill::cli {
 namespace {
 
 constexpr std::size_t kMaxMessageBytes = kMaxFileBytes;  // of client and server
 
-// The service knows a model by its field, the user by its file.
-std::string InWords(const grpc::Status& status) {
-  const std::string& message = status.error_message();
-  for (const std::string_view field : {"model file: ", "job.source.file.content.", "source.file.content."}) {
-    if (NameOfModel().empty() || message.compare(0, field.size(), field) != 0) continue;
-    return fmt::format("{}: {}", NameOfModel(), message.substr(field.size()));
+// The service knows an input by its field, the user by its file or option.
+std::string InWords(const std::string& message) {
+  for (const auto& [field, path] : NamedInputs()) {
+    if (absl::StartsWith(message, field + ": ")) return path + message.substr(field.size());
+    if (absl::StartsWith(message, field + ".")) return path + ": " + message.substr(field.size() + 1);
+    if (absl::StartsWith(message, field + " = ")) return path + ": " + message;
   }
   const char* option = OptionOf(message);
   return option != nullptr ? fmt::format("{}: {}", option, message) : message;
+}
+
+// What the contract says of an error; empty where gRPC itself gave the status.
+v1::ErrorInfo InfoOf(const grpc::Status& status) {
+  v1::Status details;
+  v1::ErrorInfo info;
+  if (!details.ParseFromString(status.error_details())) return info;
+  for (const google::protobuf::Any& detail : details.details()) {
+    if (detail.UnpackTo(&info)) return info;
+  }
+  return {};
+}
+
+// The message of the server for a user; of several wrong fields, a line each.
+std::string Worded(const grpc::Status& status) {
+  const v1::ErrorInfo info = InfoOf(status);
+  if (info.reason() == "CURVE_UNREADABLE" && !NamedInputs().empty())
+    return fmt::format("{}: {}", NamedInputs().front().path, status.error_message());
+  const int count = info.field_violations_size();
+  if (count < 2) return InWords(status.error_message());
+  std::string lines;
+  for (const v1::FieldViolation& wrong : info.field_violations())
+    lines +=
+        (lines.empty() ? "" : "\n  ") + InWords(fmt::format("{} {}", wrong.field(), wrong.description()));
+  if (info.violation_count() > count) lines += fmt::format("\n  and {} more", info.violation_count() - count);
+  return lines;
+}
+
+// Why a server did not do a call that is right: it cannot be reached, was lost, shuts down or has too much to
+// do. Empty for any other reason.
+std::string ServerTrouble(const grpc::Status& status, const std::string& server) {
+  const std::string& message = status.error_message();
+  const std::string reason = InfoOf(status).reason();
+  if (reason == "DRAINING" || reason == "TOO_MANY_JOBS" || reason == "TOO_MANY_BYTES")
+    return fmt::format("{}: {}", server, message);
+  if (status.error_code() == grpc::StatusCode::CANCELLED)
+    return fmt::format("{} ended the call: it shuts down, or the answer was read too slowly", server);
+  if (!reason.empty()) return "";
+  if (status.error_code() != grpc::StatusCode::UNAVAILABLE) return "";
+  // How gRPC begins its message when it has not come as far as a connection.
+  for (const char* begin :
+       {"failed to connect", "DNS resolution failed", "Failed to pick", "connections to all"}) {
+    if (absl::StartsWith(message, begin)) return fmt::format("no server answers at {}: {}", server, message);
+  }
+  if (message == "Cancelling all calls")  // gRPC's word for the end of the time to drain
+    return fmt::format("{} shut down before the call was done", server);
+  return fmt::format("the connection to {} broke while the call ran: {}", server, message);
+}
+
+// Whether this is an address of gRPC: HOST:PORT, or one with a scheme (unix:/run/patchmill).
+bool IsAddress(const std::string& address) {
+  for (const char* scheme : {"unix:", "unix-abstract:", "dns:", "ipv4:", "ipv6:"})
+    if (absl::StartsWith(address, scheme)) return true;
+  const std::size_t colon = address.rfind(':');
+  int port = 0;
+  return colon != address.npos && colon > 0 && absl::SimpleAtoi(address.substr(colon + 1), &port) &&
+         port > 0 && port < 65536;
 }
 
 // Credentials for TLS if a file is given, else for plain connections.
@@ -64,6 +122,10 @@ absl::StatusOr<Connection> Connect(const CommonOptions& options) {
     connection.channel = connection.embedded->InProcessChannel();
     return connection;
   }
+  if (!IsAddress(options.server)) {
+    return absl::InvalidArgumentError(
+        fmt::format("--server {}; must be HOST:PORT, for example cam.example:50051", options.server));
+  }
   const auto credentials = Credentials(options);
   if (!credentials.ok()) return credentials.status();
   grpc::ChannelArguments arguments;
@@ -71,34 +133,6 @@ absl::StatusOr<Connection> Connect(const CommonOptions& options) {
   arguments.SetMaxSendMessageSize(static_cast<int>(kMaxMessageBytes));
   connection.channel = grpc::CreateCustomChannel(options.server, *credentials, arguments);
   return connection;
-}
-
-InterruptWatch::InterruptWatch() {
-  sigset_t signals;
-  sigemptyset(&signals);
-  sigaddset(&signals, SIGINT);
-  sigaddset(&signals, SIGTERM);
-  pthread_sigmask(SIG_BLOCK, &signals, nullptr);
-  thread_ = std::thread([this, signals] {
-    const timespec tick{0, 50'000'000};
-    while (!stop_.load()) {
-      if (sigtimedwait(&signals, nullptr, &tick) < 0) continue;
-      interrupted_.store(true);
-      const std::lock_guard<std::mutex> lock(mutex_);
-      if (context_ != nullptr) context_->TryCancel();
-    }
-  });
-}
-
-InterruptWatch::~InterruptWatch() {
-  stop_.store(true);
-  thread_.join();
-}
-
-void InterruptWatch::Attach(grpc::ClientContext* context) {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  context_ = context;
-  if (context_ != nullptr && interrupted()) context_->TryCancel();
 }
 
 CallScope::CallScope(const CommonOptions& options, InterruptWatch& watch) : watch_(watch) {
@@ -113,19 +147,17 @@ absl::Status FromGrpc(const grpc::Status& status, const CommonOptions& options, 
   if (status.ok()) return absl::OkStatus();
   const auto code = static_cast<absl::StatusCode>(status.error_code());
   if (watch.interrupted()) return absl::CancelledError("interrupted");
+  const std::string trouble = options.server.empty() ? "" : ServerTrouble(status, options.server);
+  if (!trouble.empty()) return {code, trouble};
   switch (status.error_code()) {
     case grpc::StatusCode::DEADLINE_EXCEEDED:
       return absl::DeadlineExceededError(
           options.timeout ? fmt::format("not done within --timeout {:g} s", *options.timeout)
                           : status.error_message());
-    case grpc::StatusCode::UNAVAILABLE:
-      return absl::UnavailableError(options.server.empty()
-                                        ? status.error_message()
-                                        : fmt::format("{}: {}", options.server, status.error_message()));
     case grpc::StatusCode::INTERNAL:
       return absl::InternalError("a bug of Patchmill: " + status.error_message());
     default:
-      return {code, InWords(status)};
+      return {code, Worded(status)};
   }
 }
 

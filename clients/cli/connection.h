@@ -1,12 +1,9 @@
 // The service that a command calls, on another machine or inside this process; and how a call ends early.
 #pragma once
 
-#include <atomic>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
-#include <thread>
 
 #include <absl/status/status.h>
 #include <absl/status/statusor.h>
@@ -14,6 +11,7 @@
 #include <grpcpp/client_context.h>
 #include <grpcpp/support/status.h>
 
+#include "clients/cli/interrupt_watch.h"
 #include "server/server.h"
 
 namespace patchmill::cli {
@@ -33,24 +31,8 @@ struct Connection {
 };
 absl::StatusOr<Connection> Connect(const CommonOptions& options);
 
-// SIGINT and SIGTERM cancel the call instead of killing the process, so that no unfinished file is left. The
-// constructor blocks both signals: make this object before any other thread.
-class InterruptWatch {
- public:
-  InterruptWatch();
-  ~InterruptWatch();
-  void Attach(grpc::ClientContext* context);  // the call to cancel; lives until Detach
-  void Detach() { Attach(nullptr); }
-  bool interrupted() const { return interrupted_.load(); }
-
- private:
-  std::mutex mutex_;
-  grpc::ClientContext* context_ = nullptr;
-  std::atomic<bool> interrupted_{false}, stop_{false};
-  std::thread thread_;
-};
-
-// The context of a call. It has the deadline, and an interrupt cancels it while this object lives.
+// The context of a call. It has the deadline, and an interrupt cancels it while this object lives. It has to
+// end before results are written.
 class CallScope {
  public:
   CallScope(const CommonOptions& options, InterruptWatch& watch);

@@ -187,6 +187,7 @@ absl::StatusOr<v1::FairCurveRequest> MakeFairRequest(const FairOptions& options)
   v1::FairCurveRequest request;
   absl::StatusOr<std::string> bytes = ReadWholeFile(options.points);
   if (!bytes.ok()) return bytes.status();
+  NameModel(options.points);
   request.mutable_file()->set_format(WireText(Ending(options.points), 20));
   request.mutable_file()->set_content(*std::move(bytes));
   if (!ReadAxes(options.axes, request.mutable_axes())) return Wrong("--axes", options.axes, "of x, y, z");

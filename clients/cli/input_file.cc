@@ -15,15 +15,20 @@ std::vector<std::string>& Read() {
   return paths;
 }
 
-std::string& Model() {
-  static std::string path;
-  return path;
+std::vector<NamedInput>& Named() {
+  static std::vector<NamedInput> inputs;
+  return inputs;
 }
 
 }  // namespace
 
-void NameModel(const std::string& path) { Model() = path; }
-const std::string& NameOfModel() { return Model(); }
+void NameModel(const std::string& path) {
+  for (const char* field :
+       {"model file", "job.source.file.content", "source.file.content", "source.file.format"})
+    Named().push_back({field, path});
+}
+void NameProgram(const std::string& path) { Named().push_back({"program", path}); }
+const std::vector<NamedInput>& NamedInputs() { return Named(); }
 
 const std::vector<std::string>& FilesRead() { return Read(); }
 

@@ -18,8 +18,14 @@ absl::StatusOr<std::string> ReadWholeFile(const std::string& path);
 // All paths that ReadWholeFile has read. No result replaces one of these files (output_file.h).
 const std::vector<std::string>& FilesRead();
 
-// The model of the command, for messages about its content. Empty before one was read.
+// How the service names an input (the path of a field), and the file that it came from.
+struct NamedInput {
+  std::string field, path;
+};
+
+// For messages about the content of the model, or points to be faired, and of the program of this command.
 void NameModel(const std::string& path);
-const std::string& NameOfModel();
+void NameProgram(const std::string& path);
+const std::vector<NamedInput>& NamedInputs();
 
 }  // namespace patchmill::cli

@@ -8,11 +8,13 @@
 #include <fmt/format.h>
 
 #include "clients/cli/commands.h"
+#include "clients/cli/completion.h"
 #include "clients/cli/default_file.h"
 #include "clients/cli/help_pages.h"
 #include "clients/cli/option_groups.h"
+#include "clients/cli/posts.h"
 #include "clients/cli/shared_options.h"
-#include "clients/cli/unknown_words.h"
+#include "clients/cli/usage_fault.h"
 #include "server/serve_flags.h"
 #include "server/server.h"
 
@@ -20,6 +22,11 @@ namespace patchmill::cli {
 namespace {
 
 constexpr char kVersion[] = "patchmill " PATCHMILL_VERSION;
+constexpr char kExitStatus[] =
+    "Exit status:\n"
+    "  0  the command is done\n"
+    "  1  the job could not be done, or a verification failed\n"
+    "  2  the usage is wrong, or the input is unreadable";
 
 // A command of the command line: how it is called, what it does, and a call of it.
 struct CommandEntry {
@@ -56,25 +63,23 @@ constexpr CommandEntry kEntries[] = {
      AddFair},
 };
 
-// The words of the command line that nothing has, with those that may be meant, or what else is wrong with
-// it.
+// --help and --version are no errors.
 int UsageError(const CLI::App& app, const CLI::ParseError& error) {
-  const std::string unknown = UnknownWords(app);
-  if (unknown.empty()) return app.exit(error) == 0 ? 0 : 2;
-  fmt::print(stderr, "{}Run with --help for more information.\n", unknown);
+  if (error.get_exit_code() == 0) return app.exit(error);
+  fmt::print(stderr, "{}", UsageFault(app, error));
   return 2;
 }
 
 int Main(int argc, char** argv) {
   CLI::App app("patchmill: verified ball-end-mill programs from free-form patch models", "patchmill");
-  app.set_version_flag(
-      "--version", std::string(kVersion) +
-                       "\nSTEP and IGES are read by patchmill-import, which uses Open CASCADE Technology");
+  FormatHelp(app);
+  app.set_help_flag("-h,--help", "print this help");
+  app.set_version_flag("--version",
+                       std::string(kVersion) +
+                           "\nSTEP and IGES are read by patchmill-import, which uses Open CASCADE Technology",
+                       "print the version");
   app.require_subcommand(1);
-  app.footer(
-      "Exit status: 0 the command is done; 1 the job could not be done, or a verification failed; 2 the "
-      "usage "
-      "is wrong, or the input is unreadable.");
+  app.footer(kExitStatus);
   std::string config;  // taken from the arguments before they are parsed; here for --help
   app.add_option(
       "--config", config,
@@ -86,7 +91,7 @@ int Main(int argc, char** argv) {
     commands[command] = entry.add(*command);
     of_name[entry.name] = command;
     GroupOptions(*command);
-    command->footer(fmt::format("Example:\n  patchmill {}\n\n{}", entry.example, app.get_footer()));
+    command->footer(fmt::format("Example:\n  patchmill {}\n\n{}", entry.example, kExitStatus));
   }
   for (const char* name : {"regions", "reach", "verify"}) AcceptOptionsOf(*of_name["mill"], *of_name[name]);
   CLI::App* serve = app.add_subcommand("serve", "run the service (also as patchmilld)");
@@ -97,6 +102,9 @@ int Main(int argc, char** argv) {
   std::string shell = "bash";
   completion->add_option("SHELL", shell, "the shell")->check(CLI::IsMember({"bash"}))->capture_default_str();
   CLI::App* man = app.add_subcommand("man", "print the manual page, for man -l -");
+
+  for (CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
+    command->group("Commands");
 
   absl::StatusOr<std::vector<std::string>> arguments = WithDefaults(app, {argv + 1, argv + argc});
   if (!arguments.ok()) {
@@ -110,15 +118,16 @@ int Main(int argc, char** argv) {
     return UsageError(app, error);
   }
   if (serve->parsed()) return Serve(server);
-  if (completion->parsed()) {
-    fmt::print("{}", BashCompletion(app));
-    return 0;
-  }
   if (man->parsed()) {
     fmt::print("{}", ManPage(app, kVersion));
     return 0;
   }
   InterruptWatch watch;
+  if (completion->parsed()) {
+    const absl::StatusOr<std::vector<std::string>> posts = PostNames(CommonOptions(), watch);
+    if (posts.ok()) fmt::print("{}", BashCompletion(app, *posts));
+    return ExitStatus(posts.status());
+  }
   for (const auto& [command, run] : commands) {
     if (!command->parsed()) continue;
     const std::vector<std::string> idle = GivenWithoutEffect(*command);

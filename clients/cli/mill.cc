@@ -161,8 +161,28 @@ bool CarriesProgram(const v1::Report& report) {
   return report.outcome() == v1::OUTCOME_COMPLETE || report.outcome() == v1::OUTCOME_COMPLETE_WHERE_REACHABLE;
 }
 
+// Why a job has no program.
+absl::Status NoProgram(const MillOptions& options, const v1::Report& report) {
+  std::string message = fmt::format("{}: {}", options.model, Short(report.outcome()));
+  int reasons = 0;
+  for (const v1::Diagnostic& finding : report.diagnostics()) {
+    if (finding.severity() != v1::SEVERITY_ERROR && finding.code() != Short(report.outcome())) continue;
+    if (++reasons <= kMaxReasons) message += "\n  " + Line(finding);
+  }
+  if (reasons > kMaxReasons)
+    message += fmt::format("\n  and {} more; --report has them", reasons - kMaxReasons);
+  if (!report.unreachable().empty()) message += fmt::format("\n  not reached: {}", UncutShare(report));
+  return absl::FailedPreconditionError(message + "\n  no program was written");
+}
+
 // Report and picture of a failed job are written, its program is not.
 absl::Status WriteFiles(const MillOptions& options, const PictureOptions& picture, Received& received) {
+  const bool has_program = CarriesProgram(received.report);
+  if (has_program &&
+      received.program.size() != static_cast<std::size_t>(received.report.program_size_bytes())) {
+    return absl::DataLossError("the program did not arrive whole; nothing was written");
+  }
+  if (!has_program) received.program = OutputFile();
   received.report_file.Set(Json(received.report));
   received.scene.report = received.report;
   // A preview that cannot be made keeps nothing else from being written.
@@ -174,29 +194,11 @@ absl::Status WriteFiles(const MillOptions& options, const PictureOptions& pictur
   };
   if (received.page.wanted()) set(received.page, MakePage(received.scene));
   if (received.picture.wanted()) set(received.picture, MakePicture(received.scene, picture));
-  if (const absl::Status written =
-          Commit({&received.report_file, &received.plan, &received.picture, &received.page});
+  if (const absl::Status written = Commit(
+          {&received.report_file, &received.plan, &received.picture, &received.page, &received.program});
       !written.ok())
     return written;
-  if (!CarriesProgram(received.report)) {
-    std::string message = fmt::format("{}: {}", options.model, Short(received.report.outcome()));
-    int reasons = 0;
-    for (const v1::Diagnostic& finding : received.report.diagnostics()) {
-      if (finding.severity() != v1::SEVERITY_ERROR && finding.code() != Short(received.report.outcome()))
-        continue;
-      if (++reasons <= kMaxReasons) message += "\n  " + Line(finding);
-    }
-    if (reasons > kMaxReasons)
-      message += fmt::format("\n  and {} more; --report has them", reasons - kMaxReasons);
-    if (!received.report.unreachable().empty())
-      message += fmt::format("\n  not reached: {}", UncutShare(received.report));
-    return absl::FailedPreconditionError(message + "\n  no program was written");
-  }
-  if (received.program.size() != static_cast<std::size_t>(received.report.program_size_bytes())) {
-    return absl::DataLossError("the program did not arrive whole; nothing was written");
-  }
-  if (const absl::Status written = received.program.Commit(); !written.ok()) return written;
-  return previews;
+  return has_program ? previews : NoProgram(options, received.report);
 }
 
 // ", 4.1 m less if --allowance states the stock"; empty if that would save little.
@@ -305,6 +307,23 @@ void PrintSummary(const MillOptions& options, const v1::Report& report) {
   }
 }
 
+absl::Status Receive(const CommonOptions& options, const v1::GenerateProgramRequest& request,
+                     InterruptWatch& watch, Received& received) {
+  absl::StatusOr<Connection> connection = Connect(options);
+  if (!connection.ok()) return connection.status();
+  CallScope call(options, watch);
+  const auto stub = v1::ToolpathService::NewStub(connection->channel);
+  ProgressBar bar(options.quiet);
+  const auto reader = stub->GenerateProgram(call.context(), request);
+  v1::GenerateProgramResponse response;
+  while (reader->Read(&response)) Take(response, bar, received);
+  const grpc::Status status = reader->Finish();
+  bar.Clear();
+  if (!status.ok()) return FromGrpc(status, options, watch);
+  return received.complete ? absl::OkStatus()
+                           : absl::DataLossError("the answer ended without a report; nothing was written");
+}
+
 absl::Status Run(const MillOptions& options, InterruptWatch& watch) {
   Received received;
   received.program = OutputFile(options.program);
@@ -324,20 +343,8 @@ absl::Status Run(const MillOptions& options, InterruptWatch& watch) {
   received.scene.tolerance = options.operation.tolerance;
   received.scene.scallop = operation.scallop_mm();
   received.scene.steep_angle = options.operation.steep_angle;
-  absl::StatusOr<Connection> connection = Connect(options.common);
-  if (!connection.ok()) return connection.status();
-
-  CallScope call(options.common, watch);
-  const auto stub = v1::ToolpathService::NewStub(connection->channel);
-  ProgressBar bar(options.common.quiet);
-  const auto reader = stub->GenerateProgram(call.context(), *request);
-  v1::GenerateProgramResponse response;
-  while (reader->Read(&response)) Take(response, bar, received);
-  const grpc::Status status = reader->Finish();
-  bar.Clear();
-  if (!status.ok()) return FromGrpc(status, options.common, watch);
-  if (!received.complete)
-    return absl::DataLossError("the answer ended without a report; nothing was written");
+  if (const absl::Status whole = Receive(options.common, *request, watch, received); !whole.ok())
+    return whole;
   if (const absl::Status written = WriteFiles(options, *picture, received); !written.ok()) return written;
   PrintSummary(options, received.report);
   return absl::OkStatus();

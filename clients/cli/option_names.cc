@@ -10,11 +10,17 @@ struct Entry {
 
 // Options for every field below one of these paths.
 constexpr Entry kLists[] = {
-    {"region_overrides[", "--region"},       {"setup.obstacles[", "--obstacle"},
-    {"setup.machine.", "--machine"},         {"locks[", "--lock"},
-    {"edits[", "--edits or --push"},         {"uv[", "--at"},
-    {"wall_sides[", "--wall-side"},          {"holder[", "--holder"},
-    {"tools[", "--tool or --tool-diameter"}, {"tool_diameters_mm[", "--tool-diameters"},
+    {"region_overrides[", "--region"},
+    {"setup.obstacles[", "--obstacle"},
+    {"setup.machine.", "--machine"},
+    {"locks[", "--lock"},
+    {"edits[", "--edits or --push"},
+    {"uv[", "--at"},
+    {"patch_index[", "--at"},
+    {"wall_sides[", "--wall-side"},
+    {"holder[", "--holder"},
+    {"tools[", "--tool or --tool-diameter"},
+    {"tool_diameters_mm[", "--tool-diameters"},
 };
 
 // Options for the fields whose path ends in one of these.

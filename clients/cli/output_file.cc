@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <csignal>
 #include <cstdio>
 #include <cstring>
+#include <ctime>
 #include <filesystem>
 #include <system_error>
 
@@ -13,6 +15,7 @@
 #include <unistd.h>
 
 #include "clients/cli/input_file.h"
+#include "clients/cli/temporary_files.h"
 
 namespace patchmill::cli {
 namespace {
@@ -22,9 +25,26 @@ std::string Directory(const std::string& path) {
   return parent.empty() ? "." : parent;
 }
 
+// The file that a path leads to, through symbolic links. It need not exist. Empty if the links are a circle,
+// and for an open file of a process (/dev/fd/3), which has no place of its own.
+std::string Target(const std::string& path) {
+  constexpr int kMostLinks = 40;  // as Linux
+  std::filesystem::path target = path;
+  std::error_code error;
+  for (int i = 0; i < kMostLinks; ++i) {
+    const auto folder = std::filesystem::weakly_canonical(Directory(target.string()), error);
+    if (folder == "/proc" || absl::StartsWith(folder.string(), "/proc/")) return "";
+    if (!std::filesystem::is_symlink(target, error)) return target.string();
+    target = target.parent_path() / std::filesystem::read_symlink(target, error);
+    if (error) return "";
+  }
+  return "";
+}
+
+// Whether a result is written into what the path leads to, not put in its place: devices, pipes, open files.
 bool IsSpecial(const std::string& path) {
   struct stat info {};
-  return stat(path.c_str(), &info) == 0 && !S_ISREG(info.st_mode);
+  return stat(path.c_str(), &info) == 0 && (!S_ISREG(info.st_mode) || Target(path).empty());
 }
 
 // Whether two paths are one regular file, which need not exist yet. Other files (pipes) may take several
@@ -34,7 +54,7 @@ bool IsSame(const std::string& a, const std::string& b) {
   std::error_code no_file, no_path;
   if (std::filesystem::equivalent(a, b, no_file)) return true;
   const auto whole = [&](const std::string& path) {
-    const auto from_root = std::filesystem::absolute(path, no_path);
+    const auto from_root = std::filesystem::absolute(Target(path), no_path);
     return no_path ? std::filesystem::path() : std::filesystem::weakly_canonical(from_root, no_path);
   };
   const auto here = whole(a), there = whole(b);
@@ -63,11 +83,37 @@ bool WriteAll(int file, std::string_view bytes) {
   return true;
 }
 
-// mkstemp makes files that only their owner can read. A result gets the usual permissions.
-mode_t UsualMode() {
-  const mode_t mask = umask(0);
-  umask(mask);
-  return 0666 & ~mask;
+// While this object lives, a reader that has gone is an error of write, not the end of the process.
+class NoPipeSignal {
+ public:
+  NoPipeSignal() {
+    sigemptyset(&pipe_);
+    sigaddset(&pipe_, SIGPIPE);
+    pthread_sigmask(SIG_BLOCK, &pipe_, &before_);
+  }
+  ~NoPipeSignal() {
+    const timespec now{0, 0};
+    while (sigtimedwait(&pipe_, nullptr, &now) > 0) {
+    }
+    pthread_sigmask(SIG_SETMASK, &before_, nullptr);
+  }
+
+ private:
+  sigset_t pipe_, before_;
+};
+
+// Writes to the standard output, a device or a pipe. This may wait for a reader for ever.
+absl::Status WriteSpecial(const OutputFile& output) {
+  const NoPipeSignal no_signal;
+  if (output.is_standard()) {
+    std::fflush(stdout);
+    return WriteAll(STDOUT_FILENO, output.bytes()) ? absl::OkStatus() : Fault("the standard output");
+  }
+  const int file = open(output.path().c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
+  if (file < 0) return Fault(output.path());
+  absl::Status fault = WriteAll(file, output.bytes()) ? absl::OkStatus() : Fault(output.path());
+  if (close(file) != 0 && fault.ok()) fault = Fault(output.path());
+  return fault;
 }
 
 }  // namespace
@@ -83,30 +129,14 @@ absl::Status OutputFile::CheckWritable() const {
     return absl::InvalidArgumentError(fmt::format("{} is a directory", path_));
   }
   if (const absl::Status unread = CheckNotRead(path_); !unread.ok()) return unread;
-  const std::string target = IsSpecial(path_) ? path_ : Directory(path_);
-  return access(target.c_str(), W_OK) == 0 ? absl::OkStatus() : Fault(path_);
-}
-
-absl::Status OutputFile::Commit() const {
-  if (const absl::Status unread = CheckNotRead(path_); !unread.ok()) return unread;
-  if (is_standard_) {
-    std::fflush(stdout);
-    return WriteAll(STDOUT_FILENO, bytes_) ? absl::OkStatus() : Fault("the standard output");
+  if (IsSpecial(path_)) return access(path_.c_str(), W_OK) == 0 ? absl::OkStatus() : Fault(path_);
+  const std::string target = Target(path_);
+  if (target.empty()) {
+    errno = ELOOP;
+    return Fault(path_);
   }
-  if (IsSpecial(path_)) {
-    const int file = open(path_.c_str(), O_WRONLY);
-    if (file < 0) return Fault(path_);
-    const bool written = WriteAll(file, bytes_);
-    return close(file) == 0 && written ? absl::OkStatus() : Fault(path_);
-  }
-  std::string temporary = path_ + ".XXXXXX";
-  const int file = mkstemp(temporary.data());
-  if (file < 0) return Fault(path_);
-  const bool written = WriteAll(file, bytes_) && fchmod(file, UsualMode()) == 0 && fsync(file) == 0;
-  if (close(file) == 0 && written && rename(temporary.c_str(), path_.c_str()) == 0) return absl::OkStatus();
-  const absl::Status fault = Fault(path_);
-  unlink(temporary.c_str());
-  return fault;
+  const bool may_replace = access(target.c_str(), W_OK) == 0 || errno == ENOENT;
+  return may_replace && access(Directory(target).c_str(), W_OK) == 0 ? absl::OkStatus() : Fault(path_);
 }
 
 absl::Status CheckWritable(std::initializer_list<const OutputFile*> files) {
@@ -124,11 +154,26 @@ absl::Status CheckWritable(std::initializer_list<const OutputFile*> files) {
 }
 
 absl::Status Commit(std::initializer_list<const OutputFile*> files) {
-  for (const OutputFile* file : files) {
-    if (!file->wanted()) continue;
-    if (const absl::Status written = file->Commit(); !written.ok()) return written;
-  }
-  return absl::OkStatus();
+  std::vector<TemporaryFile> temporary;
+  absl::Status fault;
+  const auto each = [&](auto write) {
+    for (const OutputFile* file : files) {
+      if (file->wanted() && fault.ok()) fault = write(*file);
+    }
+  };
+  each([](const OutputFile& file) { return CheckNotRead(file.path()); });
+  each([&](const OutputFile& file) {
+    if (file.is_standard() || IsSpecial(file.path())) return absl::OkStatus();
+    absl::StatusOr<TemporaryFile> made = WriteTemporary(Target(file.path()), file.bytes());
+    if (made.ok()) temporary.push_back(*std::move(made));
+    return made.status();
+  });
+  each([](const OutputFile& file) {
+    return file.is_standard() || IsSpecial(file.path()) ? WriteSpecial(file) : absl::OkStatus();
+  });
+  if (fault.ok()) return Place(temporary);
+  Remove(temporary);
+  return fault;
 }
 
 }  // namespace patchmill::cli

@@ -1,4 +1,4 @@
-// A result that appears on disk whole or not at all.
+// Results of a command, which appear on disk whole or not at all.
 #pragma once
 
 #include <initializer_list>
@@ -23,6 +23,7 @@ class OutputFile {
 
   bool wanted() const { return !path_.empty(); }
   const std::string& path() const { return path_; }
+  std::string_view bytes() const { return bytes_; }
   std::size_t size() const { return bytes_.size(); }
   void Append(std::string_view bytes) { bytes_ += bytes; }
   void Set(std::string bytes) { bytes_ = std::move(bytes); }
@@ -33,11 +34,9 @@ class OutputFile {
     if (is_standard_) return !endings_.empty() && endings_.front() == ending;
     return absl::EndsWithIgnoreCase(path_, ending);
   }
-  // OK if the ending is allowed, Commit can write the file, and the file is no input of this command.
+  // OK if the ending is allowed, Commit can write the file, and the file is no input of this command. A file
+  // that may not be written is not replaced.
   absl::Status CheckWritable() const;
-  // Writes under a temporary name beside the target, then renames it. A target that is no regular file
-  // (/dev/stdout, a pipe) is written directly. After a failure no new file is left.
-  absl::Status Commit() const;
 
  private:
   std::string path_;
@@ -46,9 +45,14 @@ class OutputFile {
   std::string bytes_;  // in memory until it is known to be good
 };
 
-// Both visit the wanted files in order and stop at the first fault. Two of them must not be the same regular
-// file. Call CheckWritable after all inputs are read and before the job runs.
+// Checks the wanted files in order and stops at the first fault. Two of them must not be the same regular
+// file. Call this after all inputs are read and before the job runs.
 absl::Status CheckWritable(std::initializer_list<const OutputFile*> files);
+
+// Writes the wanted files, all or none: first as temporary files beside their targets, which then take the
+// places. A symbolic link stays; its target is replaced. A file that is replaced hands on its mode. What is
+// no regular file (/dev/stdout, a pipe) is written directly, between the two steps. An interrupt leaves no
+// temporary file (interrupt_watch.h).
 absl::Status Commit(std::initializer_list<const OutputFile*> files);
 
 }  // namespace patchmill::cli

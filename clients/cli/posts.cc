@@ -1,3 +1,5 @@
+#include "clients/cli/posts.h"
+
 #include <algorithm>
 #include <memory>
 #include <string>
@@ -32,10 +34,13 @@ void PrintList(const v1::ListPostsResponse& response) {
   }
 }
 
+absl::StatusOr<v1::ListPostsResponse> ListPosts(const CommonOptions& options, InterruptWatch& watch) {
+  return Call<v1::ToolpathService::Stub, v1::ListPostsRequest, v1::ListPostsResponse>(
+      options, watch, &v1::ToolpathService::Stub::ListPosts, {});
+}
+
 absl::Status Run(const PostsOptions& options, InterruptWatch& watch) {
-  absl::StatusOr<v1::ListPostsResponse> response =
-      Call<v1::ToolpathService::Stub, v1::ListPostsRequest, v1::ListPostsResponse>(
-          options.common, watch, &v1::ToolpathService::Stub::ListPosts, {});
+  absl::StatusOr<v1::ListPostsResponse> response = ListPosts(options.common, watch);
   if (!response.ok()) return response.status();
   if (options.name.empty()) {
     PrintList(*response);
@@ -53,6 +58,14 @@ absl::Status Run(const PostsOptions& options, InterruptWatch& watch) {
 }
 
 }  // namespace
+
+absl::StatusOr<std::vector<std::string>> PostNames(const CommonOptions& options, InterruptWatch& watch) {
+  absl::StatusOr<v1::ListPostsResponse> response = ListPosts(options, watch);
+  if (!response.ok()) return response.status();
+  std::vector<std::string> names;
+  for (const v1::PostInfo& post : response->posts()) names.push_back(post.name());
+  return names;
+}
 
 Command AddPosts(CLI::App& app) {
   auto options = std::make_shared<PostsOptions>();

@@ -15,6 +15,7 @@
 #include <google/protobuf/io/zero_copy_stream_impl_lite.h>
 #include <google/protobuf/struct.pb.h>
 
+#include "clients/cli/scene_arrays.h"
 #include "clients/cli/scene_bodies.h"
 #include "clients/cli/scene_buffers.h"
 #include "clients/cli/scene_words.h"
@@ -304,6 +305,13 @@ std::string Gzip(const std::string& bytes) {
 
 }  // namespace
 
+absl::Status CheckArrays(const Scene& scene) {
+  absl::Status status = CheckMesh(scene.mesh);
+  status.Update(CheckPaths(scene.paths));
+  status.Update(CheckBorders(scene.regions));
+  return status;
+}
+
 absl::Status CheckPage() {
   if (!ViewerPage().empty()) return absl::OkStatus();
   return absl::FailedPreconditionError(
@@ -314,6 +322,7 @@ absl::Status CheckPage() {
 absl::StatusOr<std::string> MakePage(const Scene& scene) {
   if (const absl::Status can = CheckPage(); !can.ok()) return can;
   if (scene.mesh.empty()) return absl::DataLossError("the answer has no triangles; no page was written");
+  if (const absl::Status whole = CheckArrays(scene); !whole.ok()) return whole;
   Struct header;
   SceneBuffers buffers;
   Set(header, "version", 1.0);

@@ -31,7 +31,11 @@ struct Scene {
   std::string program;
 };
 
-// The page as HTML. FAILED_PRECONDITION if this program was built without it.
+// OK if the arrays of the scene can be drawn, else DATA_LOSS (scene_arrays.h).
+absl::Status CheckArrays(const Scene& scene);
+
+// The page as HTML. FAILED_PRECONDITION if this program was built without it; DATA_LOSS if the scene has no
+// triangles or its arrays are damaged.
 absl::StatusOr<std::string> MakePage(const Scene& scene);
 
 // OK if MakePage can make a page.

@@ -268,6 +268,7 @@ std::vector<std::string> LayerNames() {
 
 absl::StatusOr<std::string> MakePicture(const Scene& scene, const PictureOptions& options) {
   if (scene.mesh.empty()) return absl::DataLossError("the answer has no triangles; no picture was written");
+  if (const absl::Status whole = CheckArrays(scene); !whole.ok()) return whole;
   const char* const usual = scene.regions.regions().empty() ? "leftover" : "region";
   absl::StatusOr<Shading> shading = MakeShading(scene, options.shading.empty() ? usual : options.shading);
   if (!shading.ok()) return shading.status();

@@ -26,7 +26,7 @@ std::vector<std::string> LayerNames();
 
 // The bytes of the file. The same scene and options give the same bytes. Time and memory grow with the
 // pixels: at most 0.7 GB. INVALID_ARGUMENT if the scene has no data for the shading; DATA_LOSS if it has no
-// triangles.
+// triangles or its arrays are damaged.
 absl::StatusOr<std::string> MakePicture(const Scene& scene, const PictureOptions& options);
 
 // A page or a picture, by the ending of the file: .html, or .png.

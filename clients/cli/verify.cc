@@ -84,6 +84,7 @@ absl::StatusOr<v1::VerifyProgramRequest> MakeRequest(const VerifyOptions& option
   if (!source.ok()) return source.status();
   absl::StatusOr<std::string> program = ReadWholeFile(options.program);
   if (!program.ok()) return program.status();
+  NameProgram(options.program);
   if (program->empty()) return absl::InvalidArgumentError(fmt::format("{} is empty", options.program));
   absl::StatusOr<v1::Setup> setup = MakeSetup(options.setup);
   if (!setup.ok()) return setup.status();
@@ -197,6 +198,45 @@ Scene BareScene(const VerifyOptions& options, const v1::VerifyProgramRequest& re
   return scene;
 }
 
+// What the server answers, and the files that come with it.
+struct VerifyAnswer {
+  v1::Report report;
+  Scene scene;
+  OutputFile map_csv, map_png;
+  bool complete = false;
+};
+
+void Take(v1::VerifyProgramResponse& response, VerifyAnswer& received) {
+  if (response.has_artifact()) {
+    const v1::ArtifactChunk& chunk = response.artifact();
+    (chunk.name() == "leftover.csv" ? received.map_csv : received.map_png).Append(chunk.data());
+  }
+  if (response.has_mesh()) received.scene.mesh.push_back(std::move(*response.mutable_mesh()));
+  if (response.has_path_block()) received.scene.paths.push_back(std::move(*response.mutable_path_block()));
+  if (!response.has_report()) return;
+  received.report = response.report();
+  received.complete = true;
+}
+
+absl::Status Receive(const CommonOptions& options, const v1::VerifyProgramRequest& request,
+                     InterruptWatch& watch, VerifyAnswer& received) {
+  absl::StatusOr<Connection> connection = Connect(options);
+  if (!connection.ok()) return connection.status();
+  CallScope call(options, watch);
+  const auto stub = v1::ToolpathService::NewStub(connection->channel);
+  const auto reader = stub->VerifyProgram(call.context(), request);
+  ProgressBar bar(options.quiet);
+  v1::VerifyProgramResponse response;
+  while (reader->Read(&response)) {
+    if (response.has_progress()) bar.Show(response.progress());
+    Take(response, received);
+  }
+  const grpc::Status status = reader->Finish();
+  bar.Clear();
+  if (!status.ok()) return FromGrpc(status, options, watch);
+  return received.complete ? absl::OkStatus() : absl::DataLossError("the answer ended without a report");
+}
+
 absl::Status Run(const VerifyOptions& options, InterruptWatch& watch) {
   OutputFile report_file(options.report);
   OutputFile preview(options.preview, {".png", ".html"});
@@ -205,46 +245,23 @@ absl::Status Run(const VerifyOptions& options, InterruptWatch& watch) {
   if (preview.EndsIn(".html")) {
     if (const absl::Status can = CheckPage(); !can.ok()) return can;
   }
-  OutputFile map_csv(MapPath(options.tolerance_map, ".csv"));
-  OutputFile map_png(MapPath(options.tolerance_map, ".png"));
+  VerifyAnswer received;
+  received.map_csv = OutputFile(MapPath(options.tolerance_map, ".csv"));
+  received.map_png = OutputFile(MapPath(options.tolerance_map, ".png"));
   absl::StatusOr<v1::VerifyProgramRequest> request = MakeRequest(options);
   if (!request.ok()) return request.status();
-  if (const absl::Status writable = CheckWritable({&report_file, &preview, &map_csv, &map_png});
-      !writable.ok()) {
+  if (const absl::Status writable =
+          CheckWritable({&report_file, &preview, &received.map_csv, &received.map_png});
+      !writable.ok())
     return writable;
-  }
-  absl::StatusOr<Connection> connection = Connect(options.common);
-  if (!connection.ok()) return connection.status();
-
-  CallScope call(options.common, watch);
-  const auto stub = v1::ToolpathService::NewStub(connection->channel);
-  const auto reader = stub->VerifyProgram(call.context(), *request);
-  ProgressBar bar(options.common.quiet);
-  v1::VerifyProgramResponse response;
-  v1::Report report;
-  Scene scene = BareScene(options, *request);
-  bool complete = false;
-  while (reader->Read(&response)) {
-    if (response.has_progress()) bar.Show(response.progress());
-    if (response.has_artifact()) {
-      const v1::ArtifactChunk& chunk = response.artifact();
-      (chunk.name() == "leftover.csv" ? map_csv : map_png).Append(chunk.data());
-    }
-    if (response.has_mesh()) scene.mesh.push_back(std::move(*response.mutable_mesh()));
-    if (response.has_path_block()) scene.paths.push_back(std::move(*response.mutable_path_block()));
-    if (!response.has_report()) continue;
-    report = response.report();
-    complete = true;
-  }
-  const grpc::Status status = reader->Finish();
-  bar.Clear();
-  if (!status.ok()) return FromGrpc(status, options.common, watch);
-  if (!complete) return absl::DataLossError("the answer ended without a report");
-  if (report_file.wanted()) report_file.Set(Json(report));
+  received.scene = BareScene(options, *request);
+  if (const absl::Status whole = Receive(options.common, *request, watch, received); !whole.ok())
+    return whole;
+  if (report_file.wanted()) report_file.Set(Json(received.report));
   absl::StatusOr<std::string> made = std::string();
   if (preview.wanted()) {
-    scene.report = report;
-    made = MakePreview(scene, preview, *picture);
+    received.scene.report = received.report;
+    made = MakePreview(received.scene, preview, *picture);
     // A preview that cannot be made keeps nothing else from being written.
     if (made.ok()) {
       preview.Set(*std::move(made));
@@ -252,11 +269,12 @@ absl::Status Run(const VerifyOptions& options, InterruptWatch& watch) {
       preview = OutputFile();
     }
   }
-  if (const absl::Status written = Commit({&report_file, &preview, &map_csv, &map_png}); !written.ok())
+  if (const absl::Status written = Commit({&report_file, &preview, &received.map_csv, &received.map_png});
+      !written.ok())
     return written;
-  Print(options, report);
+  Print(options, received.report);
   if (!made.ok()) return made.status();
-  return Verdict(options, report.outcome());
+  return Verdict(options, received.report.outcome());
 }
 
 }  // namespace

@@ -1,1 +1,5 @@
 patchmill_test(clients/render DEPS clients/render)
+if(PATCHMILL_SERVICE)
+  patchmill_test(clients/cli EXTERNAL pm_proto)
+  target_sources(clients_cli_tests PRIVATE ${CMAKE_SOURCE_DIR}/clients/cli/scene_arrays.cc)
+endif()

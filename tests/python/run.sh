@@ -3,7 +3,8 @@
 # flake8, and runs the tests of this folder with the programs of BIN.
 set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
-export PATCHMILL_BIN=$1 PATCHMILLD=$1/patchmilld PYTHONDONTWRITEBYTECODE=1
+bin=$(cd "$1" && pwd)
+export PATCHMILL_BIN=$bin PATCHMILLD=$bin/patchmilld PYTHONDONTWRITEBYTECODE=1
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 python=/usr/bin/python3  # Debian's: its packages are the only ones that the wheel may need

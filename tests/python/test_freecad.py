@@ -2,8 +2,11 @@
 FreeCAD's own workbench. tests/freecad has the rest, in FreeCAD itself."""
 import dataclasses
 import math
+import os
 import pathlib
+import stat
 import sys
+import tempfile
 import types
 import unittest
 
@@ -12,7 +15,7 @@ import patchmill as pm
 from support import CLIENT, ROOT, command_line
 
 sys.path.insert(0, str(ROOT / "clients/freecad"))
-from patchmill_freecad import cam_job, frame, job, moves, options  # noqa: E402
+from patchmill_freecad import cam_job, frame, job, moves, options, output  # noqa: E402
 from patchmill_freecad.problem import Problem  # noqa: E402
 
 DOME = ROOT / "tests/models/cad/dome.step"
@@ -275,6 +278,34 @@ class Files(unittest.TestCase):
         for name in ("mill", "check", "verify", "regions", "fair"):
             self.assertIn(f'"{name}", {name})', text)
             self.assertIn(name, icons)
+
+
+class Output(unittest.TestCase):
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.folder = pathlib.Path(temporary.name)
+
+    def test_an_earlier_result_is_replaced_behind_its_link(self):
+        part = self.folder / "part.ngc"
+        part.write_bytes(b"(made by Patchmill)")
+        part.chmod(0o640)
+        (self.folder / "link").symlink_to("part.ngc")
+        output.write(self.folder / "link", b"new", "ProgramFile")
+        self.assertTrue((self.folder / "link").is_symlink())
+        self.assertEqual((part.read_bytes(), stat.S_IMODE(part.stat().st_mode)), (b"new", 0o640))
+
+    def test_other_files_and_what_is_no_file_stay(self):
+        """A pipe without a reader would keep FreeCAD waiting for ever, and a document may name any device."""
+        other, pipe = self.folder / "notes.txt", self.folder / "pipe"
+        other.write_bytes(b"mine")
+        os.mkfifo(pipe)
+        for file, why in ((other, "no result of Patchmill"), (pipe, "a pipe"), (self.folder, "a folder"),
+                          (self.folder / "none/part.ngc", "cannot be written")):
+            with self.assertRaisesRegex(Problem, f"ProgramFile '{file}'.*{why}.*choose"):
+                output.write(file, b"new", "ProgramFile")
+        self.assertEqual(other.read_bytes(), b"mine")
+        self.assertEqual(sorted(p.name for p in self.folder.iterdir()), ["notes.txt", "pipe"])
 
 
 if __name__ == "__main__":

@@ -170,7 +170,13 @@ class Errors(unittest.TestCase):
         error = caught.exception
         self.assertEqual((error.code, error.reason, error.wrong_field_count), ("INVALID_ARGUMENT", "INVALID_FIELDS", 2))
         self.assertEqual([w.field for w in error.wrong_fields], ["job.operations[0].scallop_mm", "job.operations[0].detail"])
-        self.assertIn("job.operations[0].detail = 3", str(error))
+        self.assertRegex(str(error), r"^2 fields are wrong:\n  job.operations\[0\].scallop_mm = 9; .*"
+                                     r"\n  job.operations\[0\].detail = 3; [^\n]*$")
+
+    def test_a_ball_without_a_size(self):
+        for diameter in (0, -6, float("nan"), "six"):
+            with self.assertRaisesRegex(pm.OptionError, r"diameter_mm = .*; it must be a number above 0"):
+                pm.ball(diameter)
 
     def test_an_unreadable_model(self):
         with self.assertRaises(pm.ModelError) as caught:

@@ -101,6 +101,11 @@ class Trouble(unittest.TestCase):
             with self.assertRaisesRegex(pm.ServerUnreachableError, r"No server answers at 127\.0\.0\.1:\d+"):
                 client.posts()
 
+    def test_what_is_no_address(self):
+        for address in ("localhost", "localhost:", "localhost:http", ":50051", "127.0.0.1:65536", ""):
+            with self.assertRaisesRegex(pm.OptionError, f"address = '{address}'; it must be HOST:PORT"):
+                pm.Client(address)
+
     def test_a_server_that_comes_later_is_found(self):
         port, started = free_port(), []
         later = threading.Timer(0.5, lambda: started.append(Daemon(listen=f"127.0.0.1:{port}")))
@@ -141,9 +146,12 @@ class Trouble(unittest.TestCase):
         for code, details, kind in ((grpc.StatusCode.RESOURCE_EXHAUSTED, "larger than max", pm.LimitError),
                                     (grpc.StatusCode.UNAVAILABLE, "failed to connect to all addresses", pm.ServerUnreachableError),
                                     (grpc.StatusCode.UNAVAILABLE, "Socket closed", pm.ServerLostError),
+                                    (grpc.StatusCode.UNAVAILABLE, "Cancelling all calls", pm.ServerLostError),
                                     (grpc.StatusCode.CANCELLED, "Cancelled", pm.JobCancelledError),
                                     (grpc.StatusCode.UNKNOWN, "what", pm.CallError)):
             self.assertIs(type(_status.error_of(Status(code, details), "there")), kind)
+        shut_down = _status.error_of(Status(grpc.StatusCode.UNAVAILABLE, "Cancelling all calls"), "there")
+        self.assertEqual(str(shut_down), "The server at there shut down before the call was done.")
 
 
 class OwnServer(unittest.TestCase):

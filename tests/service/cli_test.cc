@@ -915,7 +915,7 @@ TEST_F(Cli, TheDaemonMakesTheSameBytesAnswersHealthAndDrains) {
   EXPECT_EQ(testing::Run({kDaemon, "--check-health", daemon.target()}).status, 1);
   const Finished gone = Mill(bump_, {"--server", daemon.target()});
   EXPECT_EQ(gone.status, 1);
-  EXPECT_THAT(gone.err, HasSubstr(daemon.target()));
+  EXPECT_THAT(gone.err, HasSubstr("no server answers at " + daemon.target() + ": "));
 }
 
 TEST_F(Cli, AKilledServerLeavesNoNewProgram) {
@@ -927,6 +927,36 @@ TEST_F(Cli, AKilledServerLeavesNoNewProgram) {
   std::this_thread::sleep_for(700ms);
   daemon.process().Signal(SIGKILL);
   EXPECT_EQ(client.Wait(), 1);
+  EXPECT_THAT(client.Err(),
+              HasSubstr("the connection to " + daemon.target() + " broke while the call ran: "));
+  EXPECT_THAT(out_.Names(), IsEmpty());
+}
+
+TEST_F(Cli, AServerThatIsBusyOrShutsDownSaysSo) {
+  Daemon daemon(kDaemon, {"--max-jobs", "1"});
+  std::vector<std::string> command = {kPatchmill,        "mill",     long_,          "-o",
+                                      out_ / "long.ngc", "--server", daemon.target()};
+  command.insert(command.end(), fine_.begin(), fine_.end());
+  Process job(command);
+  Finished second;
+  for (int i = 0; i < 100; ++i) {  // until the job has its place
+    second = Patchmill({"check", bump_, "--server", daemon.target()});
+    if (second.status != 0) break;
+  }
+  EXPECT_EQ(second.status, 1);
+  EXPECT_THAT(second.err, HasSubstr("patchmill: " + daemon.target() +
+                                    ": the server runs 1 jobs, as many as it may; try again"));
+  daemon.process().Signal(SIGTERM);
+  for (int i = 0; i < 100; ++i) {
+    second = Patchmill({"check", bump_, "--server", daemon.target()});
+    if (second.err.find("the server runs 1 jobs") == std::string::npos) break;
+  }
+  EXPECT_EQ(second.status, 1);
+  EXPECT_THAT(second.err,
+              ::testing::AnyOf(HasSubstr(daemon.target() + ": the server is shutting down; try another one"),
+                               HasSubstr("no server answers at " + daemon.target())));
+  job.Signal(SIGTERM);
+  EXPECT_EQ(job.Wait(), 1);
   EXPECT_THAT(out_.Names(), IsEmpty());
 }
 

@@ -1,11 +1,16 @@
 // The command line as people type it: slips, defaults of a shop, pages made of the options.
 #include <regex>
+#include <sstream>
 #include <string>
 #include <vector>
 
 #include <gmock/gmock.h>
 #include <google/protobuf/util/json_util.h>
 #include <gtest/gtest.h>
+#include <poll.h>
+#include <pty.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include "tests/service/patchmill.h"
 #include "tests/service/requests.h"
@@ -41,6 +46,91 @@ TEST(CliUsage, NamesTheNearestCommandAndOption) {
               HasSubstr("mill: b.step was not expected"));
   EXPECT_THAT(error({"mill", "\x1b[2Jpart", "two\x07", "-o", "x.ngc"}), Not(HasSubstr("\x07")));
   EXPECT_THAT(error({"xyzzy"}), HasSubstr("xyzzy is no command\n"));
+}
+
+TEST(CliUsage, FaultsAreSaidInPlainWords) {
+  const TempDir dir;
+  const std::string model = dir.Write("bump.pb", testing::Bump().SerializeAsString());
+  const struct {
+    std::vector<std::string> arguments;
+    std::string message;
+  } cases[] = {
+      {{}, "patchmill: a command is missing; there are mill, check,"},
+      {{"mill"}, "patchmill mill: MODEL is missing\n  for example: patchmill mill part.step -o part.ngc"},
+      {{"mill", model}, "patchmill mill: --output is missing\n  for example: "},
+      {{"mill", model, "-o"}, "patchmill mill: --output needs a value\n'patchmill mill --help' lists"},
+      {{"mill", model, "-o", "x.ngc", "--feed"}, "--feed needs a value\n"},
+      {{"mill", model, "-o", "x.ngc", "--feed", "1", "--feed", "2"},
+       "--feed is given 2 times; give it once\n"},
+      {{"mill", model, "-o", "x.ngc", "--translate", "1", "2"}, "--translate has 2 values; must have 3\n"},
+      {{"mill", model, "-o", "x.ngc", "--coolant", "flod"},
+       "--coolant flod; must be one of off, flood, mist, air; did you mean flood?\n"},
+      {{"mill", model, "-o", "x.ngc", "--threads", "-1"}, "--threads -1; must be in [0, 64]\n"},
+      {{"completion", "zsh"}, "patchmill completion: SHELL zsh; must be bash\n"},
+      {{"check", model, "--server", "localhost"}, "--server localhost; must be HOST:PORT"},
+      {{"check", model, "--server", "localhost:http"}, "--server localhost:http; must be HOST:PORT"},
+      {{"mill", model, "-o", "x.ngc", "--coolant", std::string(100'000, 'x')}, "--coolant: xxx"},
+  };
+  for (const auto& c : cases) {
+    const Finished run = Patchmill(c.arguments);
+    EXPECT_EQ(run.status, 2) << c.message;
+    EXPECT_THAT(run.err, HasSubstr(c.message));
+    EXPECT_EQ(run.out, "") << c.message;
+  }
+}
+
+// The service names fields; the user has files and options.
+TEST(CliUsage, FaultsOfInputsNameTheirFileOrOption) {
+  const TempDir dir;
+  const std::string model = dir.Write("bump.pb", testing::Bump().SerializeAsString()),
+                    square = dir.Write("square.bv", "5\n1 1\n0 0 0\n0 1 0\n1 0 0\n1 1 0\n");
+  const struct {
+    std::vector<std::string> arguments;
+    std::string message;
+  } cases[] = {
+      {{"verify", model, square, "--tool-diameter", "6"}, "patchmill: " + square + ": line 1: "},
+      {{"edit", square, "-o", dir / "x.json"},
+       "patchmill: " + square + ": source.file.format = \"bv\"; must be json"},
+      {{"fair", square, "-o", dir / "x.csv"}, "patchmill: " + square + ": unknown format \"bv\" of a curve"},
+      {{"evaluate", square, "--at", "7,0.5,0.5"}, "patchmill: --at: patch_index[0] = 7; must be in [0, 0]"},
+      {{"mill", model, "-o", dir / "x.ngc", "--scallop", "-1", "--floor", "1e9", "--bend", "90"},
+       "patchmill: --scallop: job.operations[0].scallop_mm = -1; must be "},
+  };
+  for (const auto& c : cases) {
+    const Finished run = Patchmill(c.arguments);
+    EXPECT_EQ(run.status, 2) << c.message;
+    EXPECT_THAT(run.err, HasSubstr(c.message));
+  }
+  // All wrong fields are named in one round.
+  const Finished all = Patchmill({"mill", model, "-o", dir / "x.ngc", "--scallop", "-1", "--bend", "90"});
+  EXPECT_THAT(all.err, HasSubstr("\n  --bend: job.operations[0].zigzag_bend_deg = 90; must be "));
+  EXPECT_THAT(all.err, Not(HasSubstr(" more")));
+}
+
+// Not in the words of the library that reads the command line, and no wider than a page.
+TEST(CliUsage, HelpNamesValuesPlainly) {
+  const std::string mill = Patchmill({"mill", "--help"}).out;
+  EXPECT_THAT(mill, HasSubstr("\n  --scallop NUMBER "));
+  EXPECT_THAT(mill, HasSubstr("\n  --strategy auto|contour|zigzag\n"));
+  EXPECT_THAT(mill, HasSubstr("\n  -o,--output FILE "));
+  EXPECT_THAT(mill, HasSubstr("\n  --translate X,Y,Z "));
+  EXPECT_THAT(mill, HasSubstr("; default linuxcnc\n"));
+  EXPECT_THAT(mill, HasSubstr("; needs --boundary\n"));
+  const std::string man = Patchmill({"man"}).out;
+  EXPECT_THAT(man, HasSubstr("\\fINUMBER\\fR\nscallop (cusp) height"));
+  std::vector<std::string> pages = {man};
+  for (const std::string& command : kCommands) {
+    pages.push_back(Patchmill({command, "--help"}).out);
+    std::istringstream lines(pages.back());
+    for (std::string line; std::getline(lines, line);) {
+      const bool is_whole = line.find(' ', 28) == std::string::npos;  // a word that cannot be broken
+      EXPECT_TRUE(line.size() <= 100 || is_whole || line.rfind("  patchmill", 0) == 0) << line;
+    }
+  }
+  for (const std::string& page : pages) {
+    for (const char* word : {"FLOAT", "INT:", "TEXT:", "REQUIRED", "Excludes", "Subcommand", "default ["})
+      EXPECT_EQ(page.find(word), std::string::npos) << word;
+  }
 }
 
 TEST(CliUsage, HelpIsGroupedAndHasAnExample) {
@@ -185,22 +275,110 @@ TEST_F(CliDefaults, AMissingUnitAndASlipSayWhatToWrite) {
   EXPECT_THAT(slip.err, HasSubstr("Did you mean degree_u?"));
 }
 
-TEST(CliPages, CompleteCommandsOptionsAndValues) {
-  TempDir dir;
+// The words that the script offers at the end of a line, which bash has cut into these words.
+std::string Offered(const std::string& line, const std::string& folder) {
+  const TempDir dir;
   const std::string script = dir.Write("completion.bash", Patchmill({"completion", "bash"}).out);
-  const auto complete = [&](const std::string& line) {
-    const std::string code = "source " + script + "; COMP_WORDS=(" + line +
-                             "); COMP_CWORD=$((${#COMP_WORDS[@]} - 1)); _patchmill; echo \"${COMPREPLY[@]}\"";
-    const Finished run = patchmill::testing::Run({"/bin/bash", "-c", code});
-    EXPECT_EQ(run.status, 0) << run.err;
-    return run.out;
-  };
-  EXPECT_EQ(complete("patchmill mi"), "mill\n");
-  EXPECT_EQ(complete("patchmill mill --scal"), "--scallop --scale\n");
-  EXPECT_EQ(complete("patchmill mill --coolant f"), "flood\n");
-  EXPECT_EQ(complete("patchmill mill " + dir / "compl"), dir / "completion.bash" + "\n");
+  const std::string code =
+      "cd '" + folder + "' && source " + script + "; COMP_WORDS=(" + line +
+      "); COMP_CWORD=$((${#COMP_WORDS[@]} - 1)); _patchmill; printf '%s,' \"${COMPREPLY[@]}\"";
+  const Finished run = patchmill::testing::Run({"/bin/bash", "-c", code});
+  EXPECT_EQ(run.status, 0) << run.err;
+  EXPECT_EQ(run.err, "");
+  return run.out;
+}
+
+TEST(CliPages, CompleteCommandsOptionsAndValues) {
+  const TempDir dir;
+  const auto offered = [&](const std::string& line) { return Offered(line, dir / ""); };
+  EXPECT_EQ(offered("patchmill mi"), "mill,");
+  EXPECT_EQ(offered("patchmill mill --scal"), "--scallop,--scale,");
+  EXPECT_EQ(offered("patchmill mill --coolant f"), "flood,");
+  EXPECT_EQ(offered("patchmill mill part.json --coolant = f"), "flood,");
+  EXPECT_EQ(offered("patchmill mill part.json --coolant ="), "off,flood,mist,air,");
+  EXPECT_EQ(offered("patchmill completion b"), "bash,");
   for (const std::string& command : kCommands)
-    EXPECT_THAT(complete("patchmill " + command.substr(0, command.size() - 1)), HasSubstr(command));
+    EXPECT_THAT(offered("patchmill " + command.substr(0, command.size() - 1)), HasSubstr(command));
+  // The defaults of a shop may stand before the command, and may be named as one.
+  EXPECT_EQ(offered("patchmill --config shop.ini mi"), "mill,");
+  EXPECT_EQ(offered("patchmill --config = mill mi"), "mill,");
+  EXPECT_EQ(offered("patchmill --config shop.ini mill --coolant f"), "flood,");
+}
+
+TEST(CliPages, CompletePostsByNameAndByFile) {
+  const TempDir dir;
+  dir.Write("fast mill.post", "");
+  dir.Write("folder", "");
+  const auto offered = [&](const std::string& line) { return Offered(line, dir / ""); };
+  std::string names;
+  const std::string list = Patchmill({"posts"}).out;
+  const std::regex name("\n([a-z0-9]+) ");
+  for (std::sregex_iterator it(list.begin(), list.end(), name), end; it != end; ++it)
+    names += (*it)[1].str() + ",";
+  EXPECT_THAT(names, HasSubstr("fanuc,"));
+  EXPECT_EQ(offered("patchmill mill --post ''"), names + "fast mill.post,./folder,");
+  EXPECT_EQ(offered("patchmill mill --post fa"), "fanuc,fast mill.post,");
+  EXPECT_EQ(offered("patchmill mill --post = fan"), "fanuc,");
+  EXPECT_EQ(offered("patchmill verify a.json a.ngc --dialect gr"), "grbl,");
+  EXPECT_EQ(offered("patchmill posts hei"), "heidenhain,");
+}
+
+// A line as it is typed at a terminal, with tabs; what bash then runs instead of patchmill.
+std::string Typed(const std::string& line, const std::string& folder) {
+  const TempDir dir;
+  const std::string script = dir.Write("completion.bash", Patchmill({"completion", "bash"}).out);
+  int terminal = -1;
+  const pid_t shell = forkpty(&terminal, nullptr, nullptr, nullptr);
+  if (shell == 0) {
+    setenv("TERM", "dumb", 1);
+    setenv("PS1", "", 1);
+    if (chdir(folder.c_str()) == 0) execl("/bin/bash", "bash", "--norc", "--noprofile", "-i", nullptr);
+    _exit(127);
+  }
+  std::string setting = "stty -echo; bind 'set bell-style none'; source " + script +
+                        "; patchmill() { printf '<%s>' ran \"$@\"; echo; exit; }; echo ready\n";
+  std::string shown;
+  const auto wait = [&](const std::string& text) {
+    pollfd event{terminal, POLLIN, 0};
+    char bytes[4096];
+    while (shown.find(text) == shown.npos && poll(&event, 1, 20'000) > 0) {
+      const ssize_t n = read(terminal, bytes, sizeof bytes);
+      if (n <= 0) break;
+      shown.append(bytes, static_cast<std::size_t>(n));
+    }
+  };
+  EXPECT_EQ(write(terminal, setting.data(), setting.size()), static_cast<ssize_t>(setting.size()));
+  wait("ready\r\n");
+  const std::string keys = line + "\n";
+  EXPECT_EQ(write(terminal, keys.data(), keys.size()), static_cast<ssize_t>(keys.size()));
+  wait("<ran>");
+  wait(">\r\n");
+  kill(shell, SIGKILL);
+  waitpid(shell, nullptr, 0);
+  close(terminal);
+  const std::size_t from = shown.rfind("<ran>");
+  return from == shown.npos ? shown : shown.substr(from, shown.find('\r', from) - from);
+}
+
+TEST(CliPages, CompleteFilesWithBlanksWhole) {
+  const TempDir dir;
+  dir.Write("my part.json", "");
+  dir.Write("shop defaults.ini", "");
+  dir.Write("fast mill.post", "");
+  std::filesystem::create_directory(dir / "new parts");
+  dir.Write("new parts/door handle.step", "");
+  const auto typed = [&](const std::string& line) { return Typed(line, dir / ""); };
+  EXPECT_EQ(typed("patchmill check my\t"), "<ran><check><my part.json>");
+  EXPECT_EQ(typed("patchmill che\t ne\tdo\t--qui\t"), "<ran><check><new parts/door handle.step><--quiet>");
+  EXPECT_EQ(typed("patchmill check \"new p\tdo\t"), "<ran><check><new parts/door handle.step>");
+  EXPECT_EQ(typed("patchmill --config sh\tmi\t my\t"),
+            "<ran><--config><shop defaults.ini><mill><my part.json>");
+  EXPECT_EQ(typed("patchmill mill 'my part.json' --config sh\t"),
+            "<ran><mill><my part.json><--config><shop defaults.ini>");
+  EXPECT_EQ(typed("patchmill mill my\t--only 'lid left' --post fas\t"),
+            "<ran><mill><my part.json><--only><lid left><--post><fast mill.post>");
+  EXPECT_EQ(typed("patchmill mill my\t--only 'lid left' --coolant fl\t"),
+            "<ran><mill><my part.json><--only><lid left><--coolant><flood>");
 }
 
 TEST(CliPages, TheManualHasAllCommandsAndOptions) {

@@ -3,6 +3,8 @@ from __future__ import annotations
 
 import pathlib
 
+from patchmill._file import write_file
+
 from .problem import Problem
 
 # Every file that this add-on writes has one of these in its first 64 kB, in small letters.
@@ -15,9 +17,9 @@ def write(file: pathlib.Path, content: bytes, what: str) -> None:
     try:
         if file.is_file() and not is_result(file):
             raise Problem(f"{what} '{file}' is there and is no result of Patchmill, so it was not replaced: choose another name.")
-        part = file.with_name(file.name + ".part")
-        part.write_bytes(content)
-        part.replace(file)
+        if file.exists() and not file.is_file():
+            raise Problem(f"{what} '{file}' is a folder, a device or a pipe, so nothing was written: choose another name.")
+        write_file(file, content)
     except OSError as error:
         raise Problem(f"{what} '{file}' cannot be written ({error.strerror}): choose a folder that is there and may be written "
                       "to.") from None

@@ -49,6 +49,15 @@ def credentials(tls: Tls) -> Any:
     return grpc.ssl_channel_credentials(_pem(tls.ca), _pem(tls.key), _pem(tls.cert))
 
 
+def check_address(address: str) -> None:
+    """OptionError if this is no address of gRPC: HOST:PORT, or one with a scheme (unix:/run/patchmill)."""
+    if address.startswith(("unix:", "unix-abstract:", "dns:", "ipv4:", "ipv6:")):
+        return
+    host, _, port = address.rpartition(":")
+    if not host or not port.isdecimal() or not 0 < int(port) < 65536:
+        raise OptionError("address", f"= {address!r}; it must be HOST:PORT, for example 'cam.example:50051', or unix:PATH")
+
+
 def is_loopback(address: str) -> bool:
     """Whether an address stays on this machine."""
     if address.startswith("unix:"):

@@ -53,6 +53,8 @@ def _info_of(trailers: Iterable[tuple[str, Any]] | None) -> status_pb2.ErrorInfo
 def _unavailable(code: str, details: str, where: str) -> errors.CallError:
     if details.startswith(_NO_CONNECTION):
         return errors.ServerUnreachableError(f"No server answers at {where}: {details}", code)
+    if details == "Cancelling all calls":  # gRPC's word for the end of the time to drain
+        return errors.ServerLostError(f"The server at {where} shut down before the call was done.", code)
     return errors.ServerLostError(f"The connection to {where} broke while the call ran: {details}", code)
 
 

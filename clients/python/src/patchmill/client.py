@@ -14,7 +14,7 @@ import grpc.aio
 
 from . import analysis, milling, modelling
 from ._call import Call
-from ._connection import CHANNEL_OPTIONS, Tls, Token, check_token, credentials, metadata
+from ._connection import CHANNEL_OPTIONS, Tls, Token, check_address, check_token, credentials, metadata
 from ._run import run_once, run_once_async
 from ._server import LazyServer, Program
 from .errors import JobCancelledError, ModelNotCachedError, PatchmillError, ServerLostError, ServerUnreachableError, TemporaryError
@@ -56,6 +56,7 @@ class _Target:
     def __init__(self, address: str | None, tls: Tls | None, token: Token | None, retry: Retry | None, program: Program | None,
                  threads: int) -> None:
         if address is not None:
+            check_address(address)
             check_token(token, address, tls)
         self._address, self._tls, self._token = address, tls, token
         self.retry = Retry() if retry is None else retry

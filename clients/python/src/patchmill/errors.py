@@ -71,9 +71,10 @@ class CallError(PatchmillError):
         self.model_code = model_code
 
     def __str__(self) -> str:
-        lines = [super().__str__()]
-        if len(self.wrong_fields) > 1:
-            lines += [f"  {wrong.field} {wrong.description}" for wrong in self.wrong_fields]
+        if len(self.wrong_fields) < 2:
+            return super().__str__()
+        lines = [f"{self.wrong_field_count} fields are wrong:"]
+        lines += [f"  {wrong.field} {wrong.description}" for wrong in self.wrong_fields]
         hidden = self.wrong_field_count - len(self.wrong_fields)
         return "\n".join(lines + ([f"  and {hidden} more"] if hidden > 0 else []))
 

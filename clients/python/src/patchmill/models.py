@@ -134,7 +134,7 @@ def model_of(model: ModelLike) -> Model:
         return Model.from_file(model)
     if isinstance(model, ExportsStep):
         return Model.from_cad(model)
-    raise OptionError("model", f"is a {type(model).__name__}; it must be the path of a file, a patchmill.Model, PatchModel or "
+    raise OptionError("model", f"is of the type {type(model).__name__}; it must be the path of a file, a patchmill.Model, PatchModel or "
                       "CurveNetwork, or a part with exportStep(path). Model.from_patches takes arrays, Model.from_cad other parts.")
 
 

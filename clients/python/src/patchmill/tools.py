@@ -2,8 +2,10 @@
 from __future__ import annotations
 
 import math
+import numbers
 from collections.abc import Sequence
 
+from .errors import OptionError
 from .messages import BallEnd, Coolant, HolderSegment, Tool
 
 USUAL_DIAMETER_MM = 6.0
@@ -22,11 +24,12 @@ def ball(diameter_mm: float = USUAL_DIAMETER_MM, *, number: int | None = None, n
     """A ball-end cutter.
 
     The contract has no defaults for tool number, spindle speed and feeds. Those that are left out here are
-    those of the command
-    line: T1, and 12000 rpm, 1200 and 400 mm/min at D 6. Larger balls turn at the same cutting speed, smaller
-        ones have the same feed per turn relative to the diameter. Report and program header then say that
-        nobody has chosen them.
+    those of the command line: T1, and 12000 rpm, 1200 and 400 mm/min at D 6. Larger balls turn at the same
+    cutting speed, smaller ones have the same feed per turn relative to the diameter. Report and program
+    header then say that nobody has chosen them.
     """
+    if not isinstance(diameter_mm, numbers.Real) or not diameter_mm > 0:
+        raise OptionError("diameter_mm", f"= {diameter_mm!r}; it must be a number above 0")
     larger, smaller = min(1.0, USUAL_DIAMETER_MM / diameter_mm), min(1.0, diameter_mm / USUAL_DIAMETER_MM)
     usual_feed = math.floor(USUAL_FEED_MM_PER_MIN * smaller + 0.5)
     feed = _at_least_one(usual_feed) if feed_mm_per_min is None else feed_mm_per_min
