@@ -40,19 +40,19 @@ class Async(unittest.IsolatedAsyncioTestCase):
         self.assertGreater(ticks, 10)
 
     async def test_cancelling_a_task_ends_its_job(self):
-        with daemon("--max-jobs", "1") as server:
+        with daemon("--max-jobs", "1", "--max-queue", "0") as server:
             async with pm.AsyncClient(server.address, retry=NO_RETRY) as client:
                 began = asyncio.Event()
                 job = asyncio.create_task(client.mill(HILLS, long_operation(), progress=lambda p: began.set()))
                 await began.wait()
                 with self.assertRaises(pm.ServerBusyError):
-                    await client.check(MODEL)
+                    await client.regions(MODEL, operation())
                 job.cancel()
                 with self.assertRaises(asyncio.CancelledError):
                     await job
                 # The server is free again.
                 async with pm.AsyncClient(server.address) as patient:
-                    self.assertTrue((await patient.check(MODEL)).is_usable)
+                    self.assertTrue((await patient.regions(MODEL, operation())).regions.regions)
 
     async def test_cancel_deadline_and_errors(self):
         async with pm.AsyncClient() as client:

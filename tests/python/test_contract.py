@@ -5,7 +5,7 @@ import unittest
 
 import numpy as np
 import patchmill as pm
-from patchmill import _call, _message, analysis, messages, milling, modelling
+from patchmill import _call, _message, analysis, messages, milling, modelling, uploading
 from patchmill.v1 import fairing_pb2, job_pb2, operation_pb2, setup_pb2
 from support import ROOT
 
@@ -14,12 +14,13 @@ FUNCTIONS = {
     "GenerateProgram": milling.mill, "VerifyProgram": milling.verify, "ListPosts": milling.posts, "SplitRegions": analysis.regions,
     "TabulateReach": analysis.reach, "TraceLines": analysis.lines, "EvaluateSurface": analysis.evaluate, "CheckModel": modelling.check,
     "ConvertModel": modelling.convert, "BuildModel": modelling.build, "EditModel": modelling.edit, "FairCurve": modelling.fair,
-    "FairNet": modelling.fair_net,
+    "FairNet": modelling.fair_net, "UploadModel": uploading.upload, "ForgetModel": uploading.forget,
 }
 # Fields whose arguments have other names.
 ARGUMENTS = {
     "job": "operation", "source": "model", "sections": "outline", "boundary": "outline", "GenerateProgram.validate_only": "-",
     "FairCurve.points": "curve", "FairCurve.file": "curve", "FairNet.points": "net", "FairNet.file": "net",
+    "UploadModel.start": "model", "UploadModel.chunk": "-", "ForgetModel.model_sha256": "model",
 }
 # Fields of a job are arguments of their own.
 JOB_ARGUMENTS = {"source": "model", "setup": "setup", "operations": "operation", "name": "name"}

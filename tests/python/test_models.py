@@ -136,7 +136,28 @@ class FromBytes(unittest.TestCase):
         programs = [CLIENT.mill(m, operation(1.0), outputs=()).program_bytes for m in (model, HILLS)]
         self.assertEqual(programs[0], programs[1])
         with self.assertRaises(pm.ModelNotCachedError):
-            CLIENT.check(pm.Model(pm.ModelSource(model_sha256=sha256)))
+            CLIENT.check(pm.Model(pm.ModelSource(model_sha256=bytes(32))))
+
+    def test_an_uploaded_model_stands_for_the_model(self):
+        kept = CLIENT.upload(HILLS)
+        self.assertEqual(kept.sha256, CLIENT.check(HILLS).model_sha256)
+        self.assertIn("9 patches, kept as", str(kept))
+        for _ in range(2):  # the second time the client uploads it again
+            self.assertEqual(CLIENT.mill(kept.model, operation(1.0), outputs=()).program_bytes,
+                             CLIENT.mill(HILLS, operation(1.0), outputs=()).program_bytes)
+            self.assertTrue(CLIENT.forget(kept.model))
+            self.assertFalse(CLIENT.forget(kept.sha256))
+        with self.assertRaisesRegex(pm.OptionError, "is a whole model"):
+            CLIENT.forget(pm.Model.from_file(HILLS))
+
+    def test_models_of_all_kinds_can_be_uploaded(self):
+        for model in (pm.Model.from_patches(DOME), HILLS, ROOT / "examples/mouse.json"):
+            kept = CLIENT.upload(model)
+            self.assertEqual(CLIENT.check(kept.model).model_sha256, CLIENT.check(model).model_sha256)
+        broken = CLIENT.upload(pm.Model.from_bytes(b'{"length_unit":"LENGTH_UNIT_MILLIMETER","patches":[{"bezier":{"degree_u":99}}]}'))
+        self.assertFalse(broken.is_usable)
+        self.assertIsNone(broken.model)
+        self.assertIn("cannot be used", str(broken))
 
     def test_names_are_cut_to_what_the_contract_allows(self):
         result = CLIENT.resolve(pm.Model.from_bytes(HILLS.read_bytes(), "bv", name="ü" * 80), operation())

@@ -59,27 +59,28 @@ class Trouble(unittest.TestCase):
             self.assertIn("broke while the call ran", str(job.error))
 
     def test_a_busy_server_is_tried_again(self):
-        with daemon("--max-jobs", "1") as server, pm.Client(server.address, retry=NO_RETRY) as client:
+        with daemon("--max-jobs", "1", "--max-queue", "0") as server, pm.Client(server.address, retry=NO_RETRY) as client:
             job = InBackground(client)
             with self.assertRaises(pm.ServerBusyError) as caught:
-                client.check(MODEL)
-            self.assertEqual((caught.exception.reason, caught.exception.limit_value), ("TOO_MANY_JOBS", 1.0))
+                client.regions(MODEL, operation())
+            self.assertEqual((caught.exception.reason, caught.exception.limit), ("TOO_MANY_JOBS", "waiting_jobs"))
+            self.assertTrue(client.check(MODEL).is_usable)  # calls of milliseconds have places of their own
             with pm.Client(server.address, retry=pm.Retry(attempts=20, first_wait_s=0.1, longest_wait_s=0.3)) as patient:
                 threading.Timer(0.5, job.cancel).start()
-                self.assertTrue(patient.check(MODEL).is_usable)
+                self.assertTrue(patient.regions(MODEL, operation()).regions.regions)
             self.assertIsInstance(job.ended_by(), pm.JobCancelledError)
 
     def test_waiting_ends_with_the_deadline_and_with_a_cancel(self):
-        with daemon("--max-jobs", "1") as server, pm.Client(server.address) as client:
+        with daemon("--max-jobs", "1", "--max-queue", "0") as server, pm.Client(server.address) as client:
             job = InBackground(client)
             retry = pm.Retry(attempts=1000, first_wait_s=0.2, longest_wait_s=0.2)
             with pm.Client(server.address, retry=retry) as patient:
                 with self.assertRaises(pm.ServerBusyError):
-                    patient.check(MODEL, timeout_s=0.5)
+                    patient.regions(MODEL, operation(), timeout_s=0.5)
                 cancel = pm.Canceller()
                 threading.Timer(0.3, cancel).start()
                 with self.assertRaises(pm.JobCancelledError):
-                    patient.check(MODEL, cancel=cancel)
+                    patient.regions(MODEL, operation(), cancel=cancel)
             job.cancel()
             job.ended_by()
 

@@ -20,9 +20,10 @@ from .results import BuildResult, CheckResult, ConvertResult, EditResult, FairCu
 from .results import ReachResult, RegionsResult, SurfaceValues, VerifyResult
 from .retry import Retry
 from .tools import ball
+from .uploading import UploadResult
 
 __all__ = [
     "AsyncClient", "BuildResult", "Canceller", "CheckResult", "Client", "ConvertResult", "EditResult", "FairCurveResult",
     "FairNetResult", "LinesResult", "Mesh", "MillResult", "Model", "Path", "ReachResult", "RegionsResult", "Retry", "SurfaceValues",
-    "Tls", "VIEW", "VerifyResult", "ball", *errors.__all__, *messages.__all__,
+    "Tls", "UploadResult", "VIEW", "VerifyResult", "ball", *errors.__all__, *messages.__all__,
 ]

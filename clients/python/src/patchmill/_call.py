@@ -62,14 +62,15 @@ class Method:
     path: str
     request: Any
     response: Any
-    is_stream: bool
+    is_stream: bool  # the server answers with a stream
+    is_upload: bool  # the client sends one: the request is iterable
 
 
 def _method(service_file: Any, service: str, name: str) -> Method:
     method = service_file.DESCRIPTOR.services_by_name[service].methods_by_name[name]
     stated = next(m for m in _proto_of(service_file, service).method if m.name == name)
     return Method(f"/{method.containing_service.full_name}/{name}", method.input_type._concrete_class,
-                  method.output_type._concrete_class, bool(stated.server_streaming))
+                  method.output_type._concrete_class, bool(stated.server_streaming), bool(stated.client_streaming))
 
 
 def _proto_of(service_file: Any, service: str) -> Any:
@@ -120,16 +121,28 @@ def progress_of(event: Any) -> Progress | None:
 
 
 @dataclass(frozen=True)
+class Inline:
+    """What a client does where the server does not hold the model of a request.
+
+    upload: makes the call that sends the model again.
+    request: makes the request with the whole model in it.
+    """
+
+    upload: Callable[[], Call[Any]]
+    request: Callable[[], Any]
+
+
+@dataclass(frozen=True)
 class Call(Generic[T]):
     """A call.
 
-    inline: makes the request with the whole model, where `request` names the model by its digest only.
+    inline: the whole model, where `request` names the model by its digest only.
     """
 
     method: Method
     request: Any
     collector: Callable[[], Collector[T]]
-    inline: Callable[[], Any] | None = None
+    inline: Inline | None = None
     progress: ProgressCallback | None = None
     cancel: Canceller | None = None
     timeout_s: float | None = None

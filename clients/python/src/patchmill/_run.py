@@ -24,7 +24,9 @@ def run_once(channel: Any, call: Call[T], request: Any, metadata: Metadata, time
     has_begun = False
     with contextlib.ExitStack() as stack:
         try:
-            if method.is_stream:
+            if method.is_upload:
+                rpc = channel.stream_unary(method.path, **codec).future(iter(request), **options)
+            elif method.is_stream:
                 rpc = channel.unary_stream(method.path, **codec)(request, **options)
             else:
                 rpc = channel.unary_unary(method.path, **codec).future(request, **options)
@@ -69,7 +71,10 @@ async def run_once_async(channel: Any, call: Call[T], request: Any, metadata: Me
     has_begun = False
     with contextlib.ExitStack() as stack:
         try:
-            rpc = (channel.unary_stream if method.is_stream else channel.unary_unary)(method.path, **codec)(request, **options)
+            if method.is_upload:
+                rpc = channel.stream_unary(method.path, **codec)(iter(request), **options)
+            else:
+                rpc = (channel.unary_stream if method.is_stream else channel.unary_unary)(method.path, **codec)(request, **options)
             stack.callback(rpc.cancel)
             if call.cancel is not None:
                 stack.enter_context(call.cancel.attached(lambda: loop.call_soon_threadsafe(rpc.cancel)))

@@ -21,6 +21,7 @@ _OF_REASON: dict[str, type[errors.CallError]] = {
     "LIMIT_EXCEEDED": errors.LimitError,
     "TOO_MANY_JOBS": errors.ServerBusyError,
     "TOO_MANY_BYTES": errors.ServerBusyError,
+    "TOO_MUCH_MEMORY": errors.ServerBusyError,
     "DRAINING": errors.ServerDrainingError,
     "REGIONS_STALE": errors.RegionsStaleError,
     "CANCELLED": errors.JobCancelledError,

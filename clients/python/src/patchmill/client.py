@@ -12,7 +12,7 @@ from typing import Any, Concatenate, ParamSpec, TypeVar
 import grpc
 import grpc.aio
 
-from . import analysis, milling, modelling
+from . import analysis, milling, modelling, uploading
 from ._call import Call
 from ._connection import CHANNEL_OPTIONS, Tls, Token, check_address, check_token, credentials, metadata
 from ._run import run_once, run_once_async
@@ -149,13 +149,18 @@ class Client:
     def run(self, call: Call[T]) -> T:
         """Makes a call, and makes it again where its error is temporary."""
         deadline, request, waits = Deadline(call.timeout_s), call.request, self._target.retry.waits()
+        uploaded = False
         while True:
             try:
                 return run_once(self._connected(), call, request, self._target.metadata(), deadline.left_s(), self._target.where)
             except ModelNotCachedError:
                 if call.inline is None or request is not call.request:
                     raise
-                request = call.inline()
+                if not uploaded:
+                    uploaded = True
+                    self.run(call.inline.upload())
+                else:
+                    request = call.inline.request()
             except (TemporaryError, ServerLostError) as error:
                 explained = self._target.explained(error)
                 if self._target.forget_ended():
@@ -180,6 +185,8 @@ class Client:
     edit = _method(modelling.edit)
     fair = _method(modelling.fair)
     fair_net = _method(modelling.fair_net)
+    upload = _method(uploading.upload)
+    forget = _method(uploading.forget)
 
 
 def _sleep(seconds: float) -> bool:
@@ -235,6 +242,7 @@ class AsyncClient:
     async def run(self, call: Call[T]) -> T:
         """Makes a call, and makes it again where its error is temporary."""
         deadline, request, waits = Deadline(call.timeout_s), call.request, self._target.retry.waits()
+        uploaded = False
         while True:
             try:
                 channel = await self._connected()
@@ -242,7 +250,11 @@ class AsyncClient:
             except ModelNotCachedError:
                 if call.inline is None or request is not call.request:
                     raise
-                request = call.inline()
+                if not uploaded:
+                    uploaded = True
+                    await self.run(call.inline.upload())
+                else:
+                    request = call.inline.request()
             except (TemporaryError, ServerLostError) as error:
                 explained = await asyncio.to_thread(self._target.explained, error)
                 if await asyncio.to_thread(self._target.forget_ended):
@@ -269,3 +281,5 @@ class AsyncClient:
     edit = _async_method(modelling.edit)
     fair = _async_method(modelling.fair)
     fair_net = _async_method(modelling.fair_net)
+    upload = _async_method(uploading.upload)
+    forget = _async_method(uploading.forget)

@@ -7,7 +7,7 @@ import pathlib
 from collections.abc import Sequence
 from typing import Any
 
-from ._call import RPCS, Call, Canceller, One, ProgressCallback
+from ._call import RPCS, Call, Canceller, Inline, One, ProgressCallback
 from ._message import from_message, set_fields
 from .errors import IncompleteAnswerError
 from .meshes import mesh_of
@@ -16,6 +16,7 @@ from .messages import RegionOverride, Report, Selection, Setup, Strategy, Tool
 from .models import ModelLike, Model, model_of, set_name, set_source
 from .paths import path_of
 from .results import MillResult, VerifyResult
+from .uploading import upload
 from .v1 import toolpath_service_pb2
 
 VIEW = (Output.REGIONS, Output.PATH_BLOCKS, Output.TESSELLATION)
@@ -133,9 +134,9 @@ def resolve(model: ModelLike, operation: Operation, *, setup: Setup | None = Non
     return Call(RPCS["GenerateProgram"], make(chosen), _AcceptedCollector, inline(chosen, make), timeout_s=timeout_s)
 
 
-def inline(model: Model, make: Any) -> Any:
+def inline(model: Model, make: Any) -> Inline | None:
     whole = model.inline
-    return None if whole is None else lambda: make(whole)
+    return None if whole is None else Inline(lambda: upload(whole), lambda: make(whole))
 
 
 class _VerifyCollector:

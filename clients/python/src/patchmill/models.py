@@ -107,9 +107,8 @@ class Model:
 
     @classmethod
     def from_digest(cls, sha256: bytes, inline: ModelLike) -> Model:
-        """A model that the server may hold: only its digest is sent, and the whole model when the server
-        answers that it does not hold it. Servers of version 0.1 hold none, so that this costs one call more
-        with them."""
+        """A model that the server may hold, as `Client.upload` makes it: only its digest is sent. Where the
+        server has forgotten the model it is uploaded again."""
         whole = model_of(inline)
         return cls(ModelSource(model_sha256=sha256), whole.name, whole)
 
