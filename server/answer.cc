@@ -41,9 +41,8 @@ bool Answer::Write(grpc::ByteBuffer message) {
   messages_.push_back({std::move(message), counted});
   Drop();
   changed_.notify_all();
-  changed_.wait(lock, [&] {
-    return stopped_ || keeps_ || readers_.empty() || Behind() <= limits::kAnswerAheadBytes;
-  });
+  changed_.wait(
+      lock, [&] { return stopped_ || keeps_ || readers_.empty() || Behind() <= limits::kAnswerAheadBytes; });
   return !stopped_ && (keeps_ || !readers_.empty());
 }
 
@@ -114,9 +113,8 @@ Answer::Reader::Event Answer::Reader::Next(bool progress, std::chrono::milliseco
   std::unique_lock<std::mutex> lock(answer_.mutex_);
   const auto has_message = [&] { return next_ < answer_.dropped_ + answer_.messages_.size(); };
   const auto has_progress = [&] { return progress && answer_.progress_number_ > seen_progress_; };
-  answer_.changed_.wait_for(lock, wait, [&] {
-    return answer_.stopped_ || answer_.end_ || has_message() || has_progress();
-  });
+  answer_.changed_.wait_for(
+      lock, wait, [&] { return answer_.stopped_ || answer_.end_ || has_message() || has_progress(); });
   if (answer_.stopped_) return *answer_.end_;
   if (has_message()) {
     Message message{answer_.messages_[next_ - answer_.dropped_].bytes};

@@ -3,8 +3,8 @@
 
 #include <chrono>
 #include <condition_variable>
-#include <cstdint>
 #include <cstddef>
+#include <cstdint>
 #include <deque>
 #include <memory>
 #include <mutex>
@@ -41,7 +41,7 @@ class Answer {
 
   // For a reader. Its place in the answer.
   class Reader;
-  // Nothing if the beginning of the answer is dropped, or the job has been told to end.
+  // Nothing if the beginning of the answer is dropped, or the job is to end.
   std::unique_ptr<Reader> Read();
 
   // Tells the job to end, because of `reason`. The readers get it as the end of the answer.

@@ -115,7 +115,7 @@ class Memory {
                               static_cast<double>(estimate));
   }
   MemoryBudget& budget() { return budget_; }
-  // RESOURCE_EXHAUSTED: what the job had asked for when there was no more.
+  // RESOURCE_EXHAUSTED: what the job wanted when there was no more.
   absl::Status Exceeded() const {
     return JobMemoryError(static_cast<double>(budget_.granted()), static_cast<double>(needed_));
   }
@@ -181,9 +181,9 @@ absl::Status RunInThread(const Call& call, const Work& work, JobProgress& progre
 
 ServerEnv::ServerEnv(const ServerOptions& given, ReceivedBytes received, std::unique_ptr<DiskCache> disk)
     : options(given),
-      shares(ShareMemory(given.memory_limit_mib > 0 ? std::int64_t{given.memory_limit_mib} << 20
-                                                    : DefaultMemoryLimit(),
-                         std::int64_t{given.max_in_flight_mib} << 20, std::int64_t{given.store_mib} << 20)),
+      shares(ShareMemory(
+          given.memory_limit_mib > 0 ? std::int64_t{given.memory_limit_mib} << 20 : DefaultMemoryLimit(),
+          std::int64_t{given.max_in_flight_mib} << 20, std::int64_t{given.store_mib} << 20)),
       quick(limits::kQuickPlaces, limits::kMaxQueue),
       jobs(given.max_jobs > 0 ? given.max_jobs
                               : static_cast<int>(std::max(1u, std::thread::hardware_concurrency())),

@@ -1,5 +1,5 @@
-// Replaces operator new and operator delete, so that the memory of each job is counted (memory_budget.h). Part
-// of the programs that serve, not of the library: a test has the allocator of the system.
+// Replaces operator new and operator delete, so that the memory of each job is counted (memory_budget.h).
+// Part of the programs that serve, not of the library: a test has the allocator of the system.
 #include <cstdlib>
 #include <new>
 

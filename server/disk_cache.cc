@@ -53,7 +53,8 @@ std::optional<Messages> Unpack(std::string_view packed) {
   while (!packed.empty()) {
     if (packed.size() < 8) return std::nullopt;
     std::uint64_t size = 0;
-    for (int k = 7; k >= 0; --k) size = size << 8 | static_cast<unsigned char>(packed[static_cast<std::size_t>(k)]);
+    for (int k = 7; k >= 0; --k)
+      size = size << 8 | static_cast<unsigned char>(packed[static_cast<std::size_t>(k)]);
     packed.remove_prefix(8);
     if (size > packed.size()) return std::nullopt;
     const grpc::Slice slice(packed.data(), size);
@@ -66,7 +67,8 @@ std::optional<Messages> Unpack(std::string_view packed) {
 // A descriptor that is closed at the end.
 class File {
  public:
-  File(const std::string& path, int flags) : descriptor_(open(path.c_str(), flags | O_CLOEXEC | O_NOFOLLOW, 0600)) {}
+  File(const std::string& path, int flags)
+      : descriptor_(open(path.c_str(), flags | O_CLOEXEC | O_NOFOLLOW, 0600)) {}
   ~File() {
     if (descriptor_ >= 0) close(descriptor_);
   }
@@ -136,7 +138,8 @@ void DiskCache::Put(const StoreKey& key, const std::string& from, const Messages
   static std::atomic<std::uint64_t> number{0};
   const std::string packed = Pack(messages), path = PathOf(key, from);
   if (static_cast<std::int64_t>(packed.size()) > params_.limit_bytes / 4) return;
-  const std::string part = fmt::format("{}/.{}.{}{}", params_.folder, getpid(), number.fetch_add(1), kTemporary);
+  const std::string part =
+      fmt::format("{}/.{}.{}{}", params_.folder, getpid(), number.fetch_add(1), kTemporary);
   bool written = false;
   {
     const File file(part, O_WRONLY | O_CREAT | O_EXCL);

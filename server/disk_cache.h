@@ -21,9 +21,9 @@ struct DiskCacheParams {
   std::chrono::seconds lifetime = std::chrono::hours(24 * 7);
 };
 
-// One file for each answer, readable by its owner alone. A file is written whole or not at all. A file that is
-// damaged, or older than its lifetime, is removed and not used. A full or read-only disk costs the cache, never
-// an answer. Any thread may call it; several servers may use one folder.
+// One file for each answer, readable by its owner alone. A file is written whole or not at all. A file that
+// is damaged, or older than its lifetime, is removed and not used. A full or read-only disk costs the cache,
+// never an answer. Any thread may call it; several servers may use one folder.
 class DiskCache {
  public:
   // INVALID_ARGUMENT if the folder is none, or cannot be written. It is made if it does not exist.

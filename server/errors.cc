@@ -122,9 +122,10 @@ absl::Status TooManyJobsError(int jobs, int waiting) {
   info.set_limit("waiting_jobs");
   info.set_limit_value(waiting);
   info.set_actual_value(waiting + 1);
-  return WithInfo(absl::StatusCode::kResourceExhausted,
-                  fmt::format("the server runs {} jobs and {} wait, as many as may; try again later", jobs, waiting),
-                  info);
+  return WithInfo(
+      absl::StatusCode::kResourceExhausted,
+      fmt::format("the server runs {} jobs and {} wait, as many as may; try again later", jobs, waiting),
+      info);
 }
 
 absl::Status TooMuchMemoryError(double limit, double taken, double wanted) {
@@ -133,11 +134,12 @@ absl::Status TooMuchMemoryError(double limit, double taken, double wanted) {
   info.set_limit("memory_of_all_jobs_bytes");
   info.set_limit_value(limit);
   info.set_actual_value(taken + wanted);
-  return WithInfo(absl::StatusCode::kResourceExhausted,
-                  fmt::format("the job needs about {:.0f} MiB; the jobs that run have {:.0f} of {:.0f} MiB; try again "
-                              "later",
-                              wanted / 1048576.0, taken / 1048576.0, limit / 1048576.0),
-                  info);
+  return WithInfo(
+      absl::StatusCode::kResourceExhausted,
+      fmt::format("the job needs about {:.0f} MiB; the jobs that run have {:.0f} of {:.0f} MiB; try again "
+                  "later",
+                  wanted / 1048576.0, taken / 1048576.0, limit / 1048576.0),
+      info);
 }
 
 absl::Status JobMemoryError(double granted, double needed) {
@@ -167,8 +169,9 @@ absl::Status DrainingError() {
 }
 
 absl::Status ModelNotCachedError() {
-  return WithReason(absl::StatusCode::kNotFound, "MODEL_NOT_CACHED",
-                    "source.model_sha256 names a model that this server does not hold; upload it, or send it inline");
+  return WithReason(
+      absl::StatusCode::kNotFound, "MODEL_NOT_CACHED",
+      "source.model_sha256 names a model that this server does not hold; upload it, or send it inline");
 }
 
 absl::Status ModelUnreadableError(std::string_view why, std::string_view code) {
@@ -246,8 +249,10 @@ std::optional<std::chrono::milliseconds> RetryDelay(const absl::Status& status) 
   const auto payload = status.GetPayload(kInfoUrl);
   v1::ErrorInfo info;
   if (!payload || !info.ParseFromString(std::string(*payload))) return std::nullopt;
-  constexpr std::pair<std::string_view, int> kDelays[] = {
-      {"TOO_MANY_JOBS", 2000}, {"TOO_MANY_BYTES", 1000}, {"TOO_MUCH_MEMORY", 2000}, {"DRAINING", 1000}};  // ms
+  constexpr std::pair<std::string_view, int> kDelays[] = {{"TOO_MANY_JOBS", 2000},
+                                                          {"TOO_MANY_BYTES", 1000},
+                                                          {"TOO_MUCH_MEMORY", 2000},
+                                                          {"DRAINING", 1000}};  // ms
   for (const auto& [reason, delay] : kDelays) {
     if (info.reason() == reason) return std::chrono::milliseconds(delay);
   }

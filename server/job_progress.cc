@@ -55,7 +55,7 @@ double StartOf(v1::JobStage stage) {
 }
 
 double EndOf(v1::JobStage stage) {
-  return stage < v1::JOB_STAGE_MODEL     ? 0.0
+  return stage < v1::JOB_STAGE_MODEL      ? 0.0
          : stage == v1::JOB_STAGE_DRAWING ? 1.0
                                           : StartOf(static_cast<v1::JobStage>(stage + 1));
 }
@@ -72,7 +72,8 @@ std::optional<v1::JobStage> StageOfStep(std::string_view step) {
 void JobProgress::Step(std::string_view step, double fraction) {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (!began_) began_ = Clock::now();
-  const v1::JobStage stage = std::max(stage_, StageOfStep(step).value_or(std::max(stage_, v1::JOB_STAGE_MODEL)));
+  const v1::JobStage stage =
+      std::max(stage_, StageOfStep(step).value_or(std::max(stage_, v1::JOB_STAGE_MODEL)));
   if (stage != stage_) {
     stage_ = stage;
     done_before_step_ = share_of_stage_ = 0.0;
@@ -82,7 +83,8 @@ void JobProgress::Step(std::string_view step, double fraction) {
   step_ = step;
   fraction_ = std::clamp(fraction, 0.0, 1.0);
   // Nobody knows how many steps follow: each takes half of what is left of its stage.
-  share_of_stage_ = std::max(share_of_stage_, done_before_step_ + 0.5 * (1.0 - done_before_step_) * fraction_);
+  share_of_stage_ =
+      std::max(share_of_stage_, done_before_step_ + 0.5 * (1.0 - done_before_step_) * fraction_);
 }
 
 void JobProgress::Queue(int place) {

@@ -10,10 +10,10 @@ inline constexpr std::size_t kMaxMessageBytes = std::size_t{64} << 20;  // in bo
 inline constexpr std::size_t kMaxSmallMessageBytes = 4096;              // requests to health and reflection
 inline constexpr int kMaxInFlightMib = 256;  // default: MiB of requests and answers at once
 inline constexpr std::size_t kMaxFileModelBytes = std::size_t{256}
-                                                  << 20;  // memory of a message in a model file
-inline constexpr std::size_t kMaxUploadBytes = std::size_t{256} << 20;      // of one model file
-inline constexpr std::size_t kMaxKeptAnswerBytes = std::size_t{64} << 20;   // of an answer that is kept whole
-inline constexpr std::size_t kAnswerAheadBytes = std::size_t{4} << 20;      // that a job is ahead of its readers
+                                                  << 20;                // memory of a message in a model file
+inline constexpr std::size_t kMaxUploadBytes = std::size_t{256} << 20;  // of one model file
+inline constexpr std::size_t kMaxKeptAnswerBytes = std::size_t{64} << 20;  // of an answer that is kept whole
+inline constexpr std::size_t kAnswerAheadBytes = std::size_t{4} << 20;  // that a job is ahead of its readers
 inline constexpr int kReceiveSeconds = 300;         // from the start of a call until its request has arrived
 inline constexpr int kUploadSeconds = 900;          // from the start of an upload until its last byte
 inline constexpr int kMeasureMs = 10;               // requests on their way are measured this often

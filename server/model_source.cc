@@ -456,7 +456,8 @@ absl::StatusOr<LoadedNetwork> LoadNetwork(const v1::ModelSource& source, std::st
         errors.Add(path, "names a model of patches; must be one with a network");
         return errors.ToStatus();
       }
-      if (!loaded.message.ParseFromString(stored->network)) return absl::InternalError("a stored network is damaged");
+      if (!loaded.message.ParseFromString(stored->network))
+        return absl::InternalError("a stored network is damaged");
       break;
     }
     case v1::ModelSource::SOURCE_NOT_SET:

@@ -36,8 +36,8 @@ struct LoadedModel {
 // Loads a model. `at` is the path of the source in its request. INVALID_ARGUMENT if it cannot be read (with
 // line and reason), NOT_FOUND for a digest of a model that the store does not have, RESOURCE_EXHAUSTED for a
 // limit, and the errors of `run` while JSON is read and while a network is joined. Limits are checked before
-// the cost that they bound arises. The memory of the message in a file is held in `access.in_flight` as long as
-// that message lives. A CAD file that was read is kept in the store.
+// the cost that they bound arises. The memory of the message in a file is held in `access.in_flight` as long
+// as that message lives. A CAD file that was read is kept in the store.
 absl::StatusOr<LoadedModel> LoadModel(const v1::ModelSource& source, std::string_view at,
                                       const RunContext& run = {}, const ModelAccess& access = {});
 

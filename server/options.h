@@ -18,15 +18,15 @@ struct ServerOptions {
   double max_idle_seconds = 60.0;   // a connection without a call for longer is closed
   double drain_seconds = 8.0;       // that running calls have after SIGTERM
   double orphan_seconds = 0.0;      // that a job goes on after its client is lost
-  std::string cache_dir;         // folder of answers on disk; empty: none are written
-  int cache_mib = 1024;          // most MiB of its files
-  double cache_days = 7.0;       // an answer is used for so long
+  std::string cache_dir;            // folder of answers on disk; empty: none are written
+  int cache_mib = 1024;             // most MiB of its files
+  double cache_days = 7.0;          // an answer is used for so long
   // PEM files. cert and key switch TLS on. With ca, clients must have a certificate of that authority.
   std::string ca_file, cert_file, key_file;
-  bool insecure = false;         // listens beyond loopback without TLS
-  bool log_requests = true;      // one line per call on stderr
+  bool insecure = false;                // listens beyond loopback without TLS
+  bool log_requests = true;             // one line per call on stderr
   bool lower_priority_of_jobs = false;  // calls of milliseconds come first (lower_priority.h)
-  double estimate_factor = 1.0;  // for tests: times the estimated memory of jobs
+  double estimate_factor = 1.0;         // for tests: times the estimated memory of jobs
 };
 
 }  // namespace patchmill

@@ -60,8 +60,7 @@ void Places::Choose() {
   }
 }
 
-// The order in which places would be given away if no further call came and all running calls ended in turn is
-// not known: the place counts the calls that have waited longer.
+// Which caller will be free next is not known: the place counts the calls that have waited longer.
 int Places::PlaceOf(const Waiter& waiter) const {
   int place = 1;
   for (const Waiter& other : waiters_) {

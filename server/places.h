@@ -42,10 +42,10 @@ class Places {
 
   // A call that waits for a place.
   struct Waiting {
-    std::string caller;                        // empty: nobody in particular
-    std::function<bool()> gone;                // true: the call need not wait any longer
-    std::function<void(int place)> on_place;   // may be empty; called every now and then, from 1
-    std::chrono::milliseconds poll{50};        // `gone` and `on_place` are called this often
+    std::string caller;                       // empty: nobody in particular
+    std::function<bool()> gone;               // true: the call need not wait any longer
+    std::function<void(int place)> on_place;  // may be empty; called every now and then, from 1
+    std::chrono::milliseconds poll{50};       // `gone` and `on_place` are called this often
   };
   // Waits for a place. RESOURCE_EXHAUSTED TOO_MANY_JOBS if the queue is full, UNAVAILABLE DRAINING while the
   // server drains, CANCELLED if the call is gone.
@@ -71,8 +71,8 @@ class Places {
   const int places_, queue_;
   mutable std::mutex mutex_;
   std::condition_variable changed_;
-  std::list<Waiter> waiters_;         // longest waiting first; chosen ones leave
-  std::map<std::string, int> runs_;   // running calls by caller
+  std::list<Waiter> waiters_;        // longest waiting first; chosen ones leave
+  std::map<std::string, int> runs_;  // running calls by caller
   int running_ = 0;
   bool draining_ = false;
 };

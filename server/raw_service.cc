@@ -257,7 +257,7 @@ class Reactor final : public grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::Byt
   bool writing_ = false, write_ok_ = false;
   bool reading_ = false, read_ok_ = false;  // of a further message
   absl::Status refused_;                    // why further messages were refused
-  bool late_ = false;  // of the call's own thread only
+  bool late_ = false;                       // of the call's own thread only
 };
 
 // For gRPC every method has a stream in both directions, so that a call starts before its request is read. A

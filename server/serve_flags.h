@@ -50,12 +50,14 @@ inline void AddServeFlags(CLI::App& app, ServerOptions& options) {
                  "how long running calls may go on after SIGTERM or SIGINT, s")
       ->check(CLI::Range(0.0, 86400.0))
       ->capture_default_str();
-  app.add_option("--orphan-seconds", options.orphan_seconds,
-                 "how long a job goes on after its client is lost, s: the same request joins it, or gets its answer")
+  app.add_option(
+         "--orphan-seconds", options.orphan_seconds,
+         "how long a job goes on after its client is lost, s: the same request joins it, or gets its answer")
       ->check(CLI::Range(0.0, 86400.0))
       ->capture_default_str();
-  app.add_option("--cache-dir", options.cache_dir,
-                 "folder where answers of jobs are kept for the time after a restart; only its owner can read them");
+  app.add_option(
+      "--cache-dir", options.cache_dir,
+      "folder where answers of jobs are kept for the time after a restart; only its owner can read them");
   app.add_option("--cache-mib", options.cache_mib, "most MiB of the files in --cache-dir")
       ->check(CLI::Range(1, 1 << 22))
       ->capture_default_str();

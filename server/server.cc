@@ -60,7 +60,8 @@ class GrpcServer final : public RunningServer {
         reflection_(MakeReflectionService(Names(), env_.in_flight, options.max_write_seconds)) {
     grpc::ServerBuilder builder;
     // Messages above the limit are refused by the services, whose errors have details.
-    builder.SetMaxReceiveMessageSize(static_cast<int>(limits::kMaxMessageBytes + limits::kMaxMessageBytes / 4));
+    builder.SetMaxReceiveMessageSize(
+        static_cast<int>(limits::kMaxMessageBytes + limits::kMaxMessageBytes / 4));
     builder.SetMaxSendMessageSize(static_cast<int>(limits::kMaxMessageBytes));
     builder.AddChannelArgument(GRPC_ARG_MAX_CONCURRENT_STREAMS, limits::kMaxCallsPerConnection);
     builder.AddChannelArgument(GRPC_ARG_SERVER_HANDSHAKE_TIMEOUT_MS, 1000 * limits::kHandshakeSeconds);
@@ -113,7 +114,7 @@ class GrpcServer final : public RunningServer {
   void Drain(double seconds) override {
     if (!server_ || drained_) return;
     drained_ = true;
-    // The port stays open: whoever asks learns that the server drains, and a new call is told the reason.
+    // The port stays open: whoever asks learns that the server drains, and a new call gets the reason.
     SetServing(false);
     env_.quick.Drain();
     env_.jobs.Drain();

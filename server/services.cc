@@ -160,7 +160,9 @@ std::string KeyBytes(const v1::VerifyProgramRequest& request) {
 const std::string& ModelIn(const v1::GenerateProgramRequest& request) {
   return request.job().source().model_sha256();
 }
-const std::string& ModelIn(const v1::VerifyProgramRequest& request) { return request.source().model_sha256(); }
+const std::string& ModelIn(const v1::VerifyProgramRequest& request) {
+  return request.source().model_sha256();
+}
 
 bool SendKept(RawCall& raw, const Messages& messages) {
   for (const grpc::ByteBuffer& message : messages) {
@@ -176,7 +178,8 @@ struct Owned {
   Request request;
 };
 
-// The job of a request. It ends when nobody reads its answer any more; the deadlines of its readers are theirs.
+// The job of a request. It ends when nobody reads its answer any more. The deadlines of its readers are
+// theirs.
 template <class Request, class Response>
 RunningJobs::Job JobOf(ServerEnv* env, StoreKey key, std::shared_ptr<Owned<Request>> owned,
                        StreamHandler<Request, Response> handler) {
@@ -184,7 +187,8 @@ RunningJobs::Job JobOf(ServerEnv* env, StoreKey key, std::shared_ptr<Owned<Reque
   job.from = ModelIn(owned->request);
   job.key = std::move(key);
   const std::string caller = job.key.caller;
-  job.work = [env, owned = std::move(owned), handler, caller](Answer& answer, const std::function<bool()>& gone) {
+  job.work = [env, owned = std::move(owned), handler, caller](Answer& answer,
+                                                              const std::function<bool()>& gone) {
     Call call;
     call.env = env;
     call.caller = caller;

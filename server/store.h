@@ -1,5 +1,5 @@
-// What the server keeps between calls: models that were uploaded, CAD files that were read, answers of jobs. One
-// store with one limit of memory: what nobody has used for longest is forgotten first.
+// What the server keeps between calls: models that were uploaded, CAD files that were read, answers of jobs.
+// One store with one limit of memory: what nobody has used for longest is forgotten first.
 #pragma once
 
 #include <any>
@@ -29,8 +29,9 @@ class Store {
  public:
   explicit Store(std::size_t limit_bytes) : limit_(limit_bytes) {}
 
-  // Keeps a value of about `bytes`, in place of one with the same key. A value above a quarter of the limit is
-  // not kept: it would drive out all others. `from` is the digest of the model that an answer was made from.
+  // Keeps a value of about `bytes`, in place of one with the same key. A value above a quarter of the limit
+  // is not kept: it would drive out all others. `from` is the digest of the model that an answer was made
+  // from.
   template <class T>
   void Put(const StoreKey& key, std::shared_ptr<const T> value, std::size_t bytes, std::string from = {}) {
     PutAny(key, std::move(value), bytes, std::move(from));

@@ -11,7 +11,7 @@ namespace patchmill {
 // operator new (server/counted_new.cc) counts; elsewhere nothing is ever added.
 class MemoryBudget {
  public:
-  // Asked for `bytes` more than were granted before. False: there are no more. Called from any thread of the
+  // Grants `bytes` beyond those before. False: there are no more. Called from any thread of the
   // job, one call at a time; it must not allocate memory through operator new.
   using Grant = std::function<bool(std::int64_t bytes)>;
 
@@ -37,7 +37,7 @@ class MemoryBudget {
   std::int64_t granted() const { return granted_.load(std::memory_order_relaxed); }
 
  private:
-  static constexpr std::int64_t kStep = 16 << 20;  // bytes that are asked for at once, at least
+  static constexpr std::int64_t kStep = 16 << 20;  // bytes that are requested at once, at least
 
   void AskFor(std::int64_t used) {
     while (asking_.test_and_set(std::memory_order_acquire)) {

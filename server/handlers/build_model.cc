@@ -54,19 +54,20 @@ absl::Status HandleBuildModel(const Call& call, const v1::BuildModelRequest& req
     return errors.ToStatus();
   }
   PM_RETURN_IF_ERROR(CheckNetworkLimits(request.network()));
-  return RunQuickCall(call, {.max_threads = request.max_threads()}, [&](const RunContext& run) -> absl::Status {
-    PatchModel model;
-    PM_ASSIGN_OR_RETURN(PatchShape shape, OutlineSurface(request, *unit));
-    model.patches.push_back({"outline", std::move(shape)});
-    if (const Diagnostics faults = ValidateModel(model); !faults.empty()) {
-      AddDiagnostics(faults, Vec3::Zero(), response->mutable_diagnostics());
-      return absl::OkStatus();
-    }
-    *response->mutable_model() = ToProto(model);
-    PM_RETURN_IF_ERROR(run.Check());
-    return request.has_network() ? TakeNormals(request, *unit, std::move(model), run, response)
-                                 : absl::OkStatus();
-  });
+  return RunQuickCall(
+      call, {.max_threads = request.max_threads()}, [&](const RunContext& run) -> absl::Status {
+        PatchModel model;
+        PM_ASSIGN_OR_RETURN(PatchShape shape, OutlineSurface(request, *unit));
+        model.patches.push_back({"outline", std::move(shape)});
+        if (const Diagnostics faults = ValidateModel(model); !faults.empty()) {
+          AddDiagnostics(faults, Vec3::Zero(), response->mutable_diagnostics());
+          return absl::OkStatus();
+        }
+        *response->mutable_model() = ToProto(model);
+        PM_RETURN_IF_ERROR(run.Check());
+        return request.has_network() ? TakeNormals(request, *unit, std::move(model), run, response)
+                                     : absl::OkStatus();
+      });
 }
 
 }  // namespace patchmill

@@ -100,50 +100,51 @@ absl::Status HandleCheckModel(const Call& call, const v1::CheckModelRequest& req
   if (request.has_tool()) tool = FromProto(request.tool(), "tool", CuttingData::kOptional, errors);
   PM_RETURN_IF_ERROR(errors.ToStatus());
   if (tool) job.operation.tool = *tool;
-  return RunQuickCall(call, {.max_threads = request.max_threads()}, [&](const RunContext& run) -> absl::Status {
-    PM_ASSIGN_OR_RETURN(LoadedModel model, LoadModel(request.source(), "source", run, ModelsOf(call)));
-    response->set_model_sha256(model.digest);
-    if (!model.faults.empty()) {
-      response->set_patch_count(static_cast<int>(model.model.patches.size()));
-      AddDiagnostics(model.faults, Vec3::Zero(), response->mutable_diagnostics());
-      return absl::OkStatus();
-    }
-    PM_RETURN_IF_ERROR(run.Check());
-    PM_ASSIGN_OR_RETURN(UprightModel upright, MakeUpright(std::move(model), job.setup, run));
-    model = std::move(upright.model);
-    job.setup = std::move(upright.setup);
-    PM_ASSIGN_OR_RETURN(PatchNetwork network, BuildPlacedNetwork(std::move(model.model), job.setup, run));
-    ContinuityReport continuity;
-    if (steps > 0) {
-      PM_ASSIGN_OR_RETURN(continuity, MeasureContinuity(network, steps, run));
-      const auto face_of = [&](const PatchEdge& edge) {
-        return network.model.patches[edge.patch.index()].face;
-      };
-      std::erase_if(continuity.edges, [&](const EdgeContinuity& joint) {
-        return face_of(joint.a) && face_of(joint.a) == face_of(joint.b);
+  return RunQuickCall(
+      call, {.max_threads = request.max_threads()}, [&](const RunContext& run) -> absl::Status {
+        PM_ASSIGN_OR_RETURN(LoadedModel model, LoadModel(request.source(), "source", run, ModelsOf(call)));
+        response->set_model_sha256(model.digest);
+        if (!model.faults.empty()) {
+          response->set_patch_count(static_cast<int>(model.model.patches.size()));
+          AddDiagnostics(model.faults, Vec3::Zero(), response->mutable_diagnostics());
+          return absl::OkStatus();
+        }
+        PM_RETURN_IF_ERROR(run.Check());
+        PM_ASSIGN_OR_RETURN(UprightModel upright, MakeUpright(std::move(model), job.setup, run));
+        model = std::move(upright.model);
+        job.setup = std::move(upright.setup);
+        PM_ASSIGN_OR_RETURN(PatchNetwork network, BuildPlacedNetwork(std::move(model.model), job.setup, run));
+        ContinuityReport continuity;
+        if (steps > 0) {
+          PM_ASSIGN_OR_RETURN(continuity, MeasureContinuity(network, steps, run));
+          const auto face_of = [&](const PatchEdge& edge) {
+            return network.model.patches[edge.patch.index()].face;
+          };
+          std::erase_if(continuity.edges, [&](const EdgeContinuity& joint) {
+            return face_of(joint.a) && face_of(joint.a) == face_of(joint.b);
+          });
+        }
+        PM_ASSIGN_OR_RETURN(const Surface surface, BuildSurface(std::move(network), SurfaceParams{}, run));
+        PM_ASSIGN_OR_RETURN(const Resolved resolved, Resolve(surface, job, run));
+        PM_ASSIGN_OR_RETURN(ModelCheck check,
+                            CheckModel(surface, tool, ReachTolerance(job.operation.tolerance), run));
+        for (const Diagnostic& remark : Placed(model.remarks, job.setup.placement))
+          check.findings.push_back(remark);
+        if (model.unitless) {
+          check.findings.push_back(UnitFinding(check.box, tool));
+        } else if (std::optional<Diagnostic> huge = HugeModelFinding(check.box)) {
+          check.findings.push_back(*std::move(huge));
+        }
+        AddDiagnostics(check.findings, resolved.program_zero, response->mutable_diagnostics());
+        *response->mutable_box() = ToProto(check.box, resolved.program_zero);
+        if (std::isfinite(check.min_concave_radius))
+          response->set_min_concave_radius_mm(check.min_concave_radius);
+        FillNetwork(surface.network, response);
+        if (steps > 0) AddJoints(continuity, response->mutable_joints());
+        PM_RETURN_IF_ERROR(FillUpDirections(surface, job.setup.placement, run, response));
+        PM_RETURN_IF_ERROR(FillFaces(request, surface, resolved.program_zero, run, response));
+        return absl::OkStatus();
       });
-    }
-    PM_ASSIGN_OR_RETURN(const Surface surface, BuildSurface(std::move(network), SurfaceParams{}, run));
-    PM_ASSIGN_OR_RETURN(const Resolved resolved, Resolve(surface, job, run));
-    PM_ASSIGN_OR_RETURN(ModelCheck check,
-                        CheckModel(surface, tool, ReachTolerance(job.operation.tolerance), run));
-    for (const Diagnostic& remark : Placed(model.remarks, job.setup.placement))
-      check.findings.push_back(remark);
-    if (model.unitless) {
-      check.findings.push_back(UnitFinding(check.box, tool));
-    } else if (std::optional<Diagnostic> huge = HugeModelFinding(check.box)) {
-      check.findings.push_back(*std::move(huge));
-    }
-    AddDiagnostics(check.findings, resolved.program_zero, response->mutable_diagnostics());
-    *response->mutable_box() = ToProto(check.box, resolved.program_zero);
-    if (std::isfinite(check.min_concave_radius))
-      response->set_min_concave_radius_mm(check.min_concave_radius);
-    FillNetwork(surface.network, response);
-    if (steps > 0) AddJoints(continuity, response->mutable_joints());
-    PM_RETURN_IF_ERROR(FillUpDirections(surface, job.setup.placement, run, response));
-    PM_RETURN_IF_ERROR(FillFaces(request, surface, resolved.program_zero, run, response));
-    return absl::OkStatus();
-  });
 }
 
 }  // namespace patchmill

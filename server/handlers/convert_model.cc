@@ -45,26 +45,27 @@ absl::Status HandleConvertModel(const Call& call, const v1::ConvertModelRequest&
             fmt::format("in [{:g}, {:g}]", limits::kMinScale, limits::kMaxScale));
     PM_RETURN_IF_ERROR(errors.ToStatus());
   }
-  return RunQuickCall(call, {.max_threads = request.max_threads()}, [&](const RunContext& run) -> absl::Status {
-    const ModelAccess models = ModelsOf(call);
-    PM_ASSIGN_OR_RETURN(LoadedModel loaded, LoadModel(request.source(), "source", run, models));
-    AddDiagnostics(loaded.faults, Vec3::Zero(), response->mutable_diagnostics());
-    if (!loaded.faults.empty()) return absl::OkStatus();
-    PM_RETURN_IF_ERROR(run.Check());
-    if (loaded.network) {
-      PM_RETURN_IF_ERROR(CopyNetwork(request, models, run, response->mutable_model()));
-      response->set_model_sha256(loaded.digest);
-      AddDiagnostics(loaded.remarks, Vec3::Zero(), response->mutable_diagnostics());
-      return absl::OkStatus();
-    }
-    const PatchModel model = Place(placement, std::move(loaded.model));
-    *response->mutable_model() = ToProto(model);
-    AddDiagnostics(loaded.remarks, Vec3::Zero(), response->mutable_model()->mutable_findings());
-    response->set_model_sha256(ModelDigest(model));
-    if (loaded.unitless) loaded.remarks.push_back(UnitFinding(ControlBox(model), std::nullopt));
-    AddDiagnostics(loaded.remarks, Vec3::Zero(), response->mutable_diagnostics());
-    return run.Check();
-  });
+  return RunQuickCall(
+      call, {.max_threads = request.max_threads()}, [&](const RunContext& run) -> absl::Status {
+        const ModelAccess models = ModelsOf(call);
+        PM_ASSIGN_OR_RETURN(LoadedModel loaded, LoadModel(request.source(), "source", run, models));
+        AddDiagnostics(loaded.faults, Vec3::Zero(), response->mutable_diagnostics());
+        if (!loaded.faults.empty()) return absl::OkStatus();
+        PM_RETURN_IF_ERROR(run.Check());
+        if (loaded.network) {
+          PM_RETURN_IF_ERROR(CopyNetwork(request, models, run, response->mutable_model()));
+          response->set_model_sha256(loaded.digest);
+          AddDiagnostics(loaded.remarks, Vec3::Zero(), response->mutable_diagnostics());
+          return absl::OkStatus();
+        }
+        const PatchModel model = Place(placement, std::move(loaded.model));
+        *response->mutable_model() = ToProto(model);
+        AddDiagnostics(loaded.remarks, Vec3::Zero(), response->mutable_model()->mutable_findings());
+        response->set_model_sha256(ModelDigest(model));
+        if (loaded.unitless) loaded.remarks.push_back(UnitFinding(ControlBox(model), std::nullopt));
+        AddDiagnostics(loaded.remarks, Vec3::Zero(), response->mutable_diagnostics());
+        return run.Check();
+      });
 }
 
 }  // namespace patchmill

@@ -30,8 +30,7 @@ void AddChanged(const JoinedNetwork& before, const JoinedNetwork& after, v1::Edi
 
 absl::Status Edit(const Call& call, const v1::EditModelRequest& request, const RunContext& run,
                   v1::EditModelResponse* response) {
-  PM_ASSIGN_OR_RETURN(LoadedNetwork loaded,
-                      LoadNetwork(request.source(), "source", run, ModelsOf(call)));
+  PM_ASSIGN_OR_RETURN(LoadedNetwork loaded, LoadNetwork(request.source(), "source", run, ModelsOf(call)));
   const auto findings = [response](const Diagnostics& list) {
     AddDiagnostics(list, Vec3::Zero(), response->mutable_diagnostics());
   };

@@ -78,22 +78,23 @@ absl::Status HandleEvaluateSurface(const Call& call, const v1::EvaluateSurfaceRe
                fmt::format("has {} numbers; must have two for each of {} points", request.uv_size(), count));
   }
   PM_RETURN_IF_ERROR(errors.ToStatus());
-  return RunQuickCall(call, {.max_threads = request.max_threads()}, [&](const RunContext& run) -> absl::Status {
-    PM_ASSIGN_OR_RETURN(LoadedModel model, LoadModel(request.source(), "source", run, ModelsOf(call)));
-    PM_RETURN_IF_ERROR(RequireSound(model));
-    PM_RETURN_IF_ERROR(CheckPoints(request, model.model));
-    PM_ASSIGN_OR_RETURN(UprightModel upright, MakeUpright(std::move(model), job.setup, run));
-    job.setup = std::move(upright.setup);
-    PM_ASSIGN_OR_RETURN(const Surface surface,
-                        BuildPlacedSurface(std::move(upright.model.model), job.setup, run));
-    PM_ASSIGN_OR_RETURN(const Resolved resolved, Resolve(surface, job, run));
-    for (int k = 0; k < count; ++k) {
-      const PatchId patch(request.patch_index(k));
-      AddPoint(Evaluate(surface, patch, request.uv(2 * k), request.uv(2 * k + 1)), resolved.program_zero,
-               response);
-    }
-    return run.Check();
-  });
+  return RunQuickCall(
+      call, {.max_threads = request.max_threads()}, [&](const RunContext& run) -> absl::Status {
+        PM_ASSIGN_OR_RETURN(LoadedModel model, LoadModel(request.source(), "source", run, ModelsOf(call)));
+        PM_RETURN_IF_ERROR(RequireSound(model));
+        PM_RETURN_IF_ERROR(CheckPoints(request, model.model));
+        PM_ASSIGN_OR_RETURN(UprightModel upright, MakeUpright(std::move(model), job.setup, run));
+        job.setup = std::move(upright.setup);
+        PM_ASSIGN_OR_RETURN(const Surface surface,
+                            BuildPlacedSurface(std::move(upright.model.model), job.setup, run));
+        PM_ASSIGN_OR_RETURN(const Resolved resolved, Resolve(surface, job, run));
+        for (int k = 0; k < count; ++k) {
+          const PatchId patch(request.patch_index(k));
+          AddPoint(Evaluate(surface, patch, request.uv(2 * k), request.uv(2 * k + 1)), resolved.program_zero,
+                   response);
+        }
+        return run.Check();
+      });
 }
 
 }  // namespace patchmill

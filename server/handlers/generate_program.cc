@@ -56,8 +56,8 @@ Response MakeAccepted(const PreparedJob& prepared, const Outputs& outputs, std::
 
 // What the job will take, as far as its model shows; at most what there is for jobs.
 std::int64_t EstimatedMemory(const PreparedJob& prepared, const ServerEnv& env) {
-  const double bytes = static_cast<double>(EstimateMemory(prepared.model.model, prepared.job)) *
-                       env.options.estimate_factor;
+  const double bytes =
+      static_cast<double>(EstimateMemory(prepared.model.model, prepared.job)) * env.options.estimate_factor;
   return static_cast<std::int64_t>(bytes);
 }
 

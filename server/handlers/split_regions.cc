@@ -32,8 +32,7 @@ absl::Status HandleSplitRegions(const Call& call, const v1::SplitRegionsRequest&
     PM_RETURN_IF_ERROR(errors.ToStatus());
   }
   const auto make = [&](const RunContext& run) -> absl::Status {
-    PM_ASSIGN_OR_RETURN(PreparedJob prepared,
-                        PrepareJob(request.job(), v1::Post(), run, ModelsOf(call)));
+    PM_ASSIGN_OR_RETURN(PreparedJob prepared, PrepareJob(request.job(), v1::Post(), run, ModelsOf(call)));
     PM_RETURN_IF_ERROR(run.Check());
     const Job& job = prepared.job;
     PM_ASSIGN_OR_RETURN(const Surface surface,
@@ -66,7 +65,7 @@ absl::Status HandleSplitRegions(const Call& call, const v1::SplitRegionsRequest&
     return absl::OkStatus();
   };
   return RunJobCall(call, {.max_threads = request.max_threads()},
-                      [&](const RunContext& run) { return InJob(make(run)); });
+                    [&](const RunContext& run) { return InJob(make(run)); });
 }
 
 }  // namespace patchmill

@@ -46,8 +46,7 @@ absl::Status HandleTabulateReach(const Call& call, const v1::TabulateReachReques
   PM_RETURN_IF_ERROR(CheckThreads(request.max_threads(), "max_threads"));
   PM_RETURN_IF_ERROR(CheckDiameters(request.tool_diameters_mm()));
   const auto make = [&](const RunContext& run) -> absl::Status {
-    PM_ASSIGN_OR_RETURN(PreparedJob prepared,
-                        PrepareJob(request.job(), v1::Post(), run, ModelsOf(call)));
+    PM_ASSIGN_OR_RETURN(PreparedJob prepared, PrepareJob(request.job(), v1::Post(), run, ModelsOf(call)));
     const Job& job = prepared.job;
     ReachTableParams params;
     for (const double d : request.tool_diameters_mm()) params.radii.push_back(0.5 * d + job.operation.leave);
@@ -77,7 +76,7 @@ absl::Status HandleTabulateReach(const Call& call, const v1::TabulateReachReques
     return absl::OkStatus();
   };
   return RunJobCall(call, {.max_threads = request.max_threads()},
-                      [&](const RunContext& run) { return InJob(make(run)); });
+                    [&](const RunContext& run) { return InJob(make(run)); });
 }
 
 }  // namespace patchmill

@@ -167,43 +167,44 @@ absl::Status HandleTraceLines(const Call& call, const v1::TraceLinesRequest& req
   PM_RETURN_IF_ERROR(RefuseUnknownFields(request));
   PM_RETURN_IF_ERROR(CheckThreads(request.max_threads(), "max_threads"));
   PM_ASSIGN_OR_RETURN(const Order order, ReadOrder(request));
-  return RunQuickCall(call, {.max_threads = request.max_threads()}, [&](const RunContext& run) -> absl::Status {
-    PM_ASSIGN_OR_RETURN(LoadedModel model, LoadModel(request.source(), "source", run, ModelsOf(call)));
-    PM_RETURN_IF_ERROR(RequireSound(model));
-    PM_ASSIGN_OR_RETURN(UprightModel upright, MakeUpright(std::move(model), order.job.setup, run));
-    Job job = order.job;
-    job.setup = std::move(upright.setup);
-    PM_ASSIGN_OR_RETURN(const Surface surface,
-                        BuildPlacedSurface(std::move(upright.model.model), job.setup, run));
-    PM_ASSIGN_OR_RETURN(const Resolved resolved, Resolve(surface, job, run));
-    const Vec3& zero = resolved.program_zero;
-    std::vector<LineOrder> lines;
-    for (const LineOrder& line : order.lines) lines.push_back(Placed(line, zero));
-    PM_ASSIGN_OR_RETURN(const std::vector<Level> levels, Trace(surface, lines, order, zero, run));
-    for (const Level& level : levels) {
-      v1::LineSet& set = *response->add_sets();
-      const LineOrder& line = lines[static_cast<std::size_t>(level.family)];
-      set.set_family_index(level.family);
-      set.set_kind(line.kind);
-      set.set_level(HasLevels(line) ? WireLevel(line, level.level, zero) : 0.0);
-      double length = 0.0;
-      for (const ZeroCurve& curve : level.curves) {
-        *set.add_lines() = ToProto(surface, curve, zero);
-        length += LengthOf(curve);
-      }
-      set.set_length_mm(length);
-    }
-    AddDiagnostics(HeaderRemarks(upright.model.remarks), zero, response->mutable_diagnostics());
-    AddDiagnostics(surface.network.findings, zero, response->mutable_diagnostics());
-    *response->mutable_patch_ids() = PatchIds(surface.network.model);
-    if (request.picture()) {
-      v1::ArtifactChunk& picture = *response->mutable_picture();
-      picture.set_name("lines.svg");
-      picture.set_media_type("image/svg+xml");
-      picture.set_data(Draw(surface, lines, levels, zero, request.name()));
-    }
-    return absl::OkStatus();
-  });
+  return RunQuickCall(
+      call, {.max_threads = request.max_threads()}, [&](const RunContext& run) -> absl::Status {
+        PM_ASSIGN_OR_RETURN(LoadedModel model, LoadModel(request.source(), "source", run, ModelsOf(call)));
+        PM_RETURN_IF_ERROR(RequireSound(model));
+        PM_ASSIGN_OR_RETURN(UprightModel upright, MakeUpright(std::move(model), order.job.setup, run));
+        Job job = order.job;
+        job.setup = std::move(upright.setup);
+        PM_ASSIGN_OR_RETURN(const Surface surface,
+                            BuildPlacedSurface(std::move(upright.model.model), job.setup, run));
+        PM_ASSIGN_OR_RETURN(const Resolved resolved, Resolve(surface, job, run));
+        const Vec3& zero = resolved.program_zero;
+        std::vector<LineOrder> lines;
+        for (const LineOrder& line : order.lines) lines.push_back(Placed(line, zero));
+        PM_ASSIGN_OR_RETURN(const std::vector<Level> levels, Trace(surface, lines, order, zero, run));
+        for (const Level& level : levels) {
+          v1::LineSet& set = *response->add_sets();
+          const LineOrder& line = lines[static_cast<std::size_t>(level.family)];
+          set.set_family_index(level.family);
+          set.set_kind(line.kind);
+          set.set_level(HasLevels(line) ? WireLevel(line, level.level, zero) : 0.0);
+          double length = 0.0;
+          for (const ZeroCurve& curve : level.curves) {
+            *set.add_lines() = ToProto(surface, curve, zero);
+            length += LengthOf(curve);
+          }
+          set.set_length_mm(length);
+        }
+        AddDiagnostics(HeaderRemarks(upright.model.remarks), zero, response->mutable_diagnostics());
+        AddDiagnostics(surface.network.findings, zero, response->mutable_diagnostics());
+        *response->mutable_patch_ids() = PatchIds(surface.network.model);
+        if (request.picture()) {
+          v1::ArtifactChunk& picture = *response->mutable_picture();
+          picture.set_name("lines.svg");
+          picture.set_media_type("image/svg+xml");
+          picture.set_data(Draw(surface, lines, levels, zero, request.name()));
+        }
+        return absl::OkStatus();
+      });
 }
 
 }  // namespace patchmill

@@ -81,7 +81,8 @@ absl::Status HandleUploadModel(const Call& call, const NextMessage<v1::UploadMod
     PM_ASSIGN_OR_RETURN(more, next(message));
     if (!more) {
       if (call.cancelled()) return absl::CancelledError("cancelled by the caller");
-      return WrongField("chunk", fmt::format("is missing: {} of {} bytes have come", received.bytes().size(), size));
+      return WrongField("chunk",
+                        fmt::format("is missing: {} of {} bytes have come", received.bytes().size(), size));
     }
     PM_RETURN_IF_ERROR(RefuseUnknownFields(message));
     if (!message.has_chunk()) return WrongField("chunk", "is missing; it must follow the first message");

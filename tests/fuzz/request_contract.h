@@ -69,20 +69,34 @@ inline void CheckAnyRequest(std::string bytes) {
   const auto which = static_cast<unsigned char>(bytes[0]) % 14;
   bytes.erase(0, 1);
   switch (which) {
-    case 0: return CheckUnary(HandleCheckModel, bytes);
-    case 1: return CheckUnary(HandleConvertModel, bytes);
-    case 2: return CheckUnary(HandleBuildModel, bytes);
-    case 3: return CheckUnary(HandleEditModel, bytes);
-    case 4: return CheckUnary(HandleFairCurve, bytes);
-    case 5: return CheckUnary(HandleFairNet, bytes);
-    case 6: return CheckUnary(HandleSplitRegions, bytes);
-    case 7: return CheckUnary(HandleTabulateReach, bytes);
-    case 8: return CheckUnary(HandleTraceLines, bytes);
-    case 9: return CheckUnary(HandleEvaluateSurface, bytes);
-    case 10: return CheckUnary(HandleListPosts, bytes);
-    case 11: return CheckUnary(HandleForgetModel, bytes);
-    case 12: return CheckStream(HandleGenerateProgram, bytes);
-    default: return CheckStream(HandleVerifyProgram, bytes);
+    case 0:
+      return CheckUnary(HandleCheckModel, bytes);
+    case 1:
+      return CheckUnary(HandleConvertModel, bytes);
+    case 2:
+      return CheckUnary(HandleBuildModel, bytes);
+    case 3:
+      return CheckUnary(HandleEditModel, bytes);
+    case 4:
+      return CheckUnary(HandleFairCurve, bytes);
+    case 5:
+      return CheckUnary(HandleFairNet, bytes);
+    case 6:
+      return CheckUnary(HandleSplitRegions, bytes);
+    case 7:
+      return CheckUnary(HandleTabulateReach, bytes);
+    case 8:
+      return CheckUnary(HandleTraceLines, bytes);
+    case 9:
+      return CheckUnary(HandleEvaluateSurface, bytes);
+    case 10:
+      return CheckUnary(HandleListPosts, bytes);
+    case 11:
+      return CheckUnary(HandleForgetModel, bytes);
+    case 12:
+      return CheckStream(HandleGenerateProgram, bytes);
+    default:
+      return CheckStream(HandleVerifyProgram, bytes);
   }
 }
 

@@ -104,13 +104,12 @@ TEST_F(RunCallTest, BeatsAtLeastTwiceASecondThoughNothingProgresses) {
 }
 
 TEST_F(RunCallTest, StopsWhenTheOtherSideIsGone) {
-  EXPECT_THAT(RunJobCall(
-                  MakeCall(), {.beat = [](const v1::Progress&) { return false; }}, Endless),
+  EXPECT_THAT(RunJobCall(MakeCall(), {.beat = [](const v1::Progress&) { return false; }}, Endless),
               StatusIs(absl::StatusCode::kCancelled, _));
 }
 
-// One place: a second job waits, is told its place, and runs when the first has ended.
-TEST_F(RunCallTest, AJobThatWaitsIsToldItsPlace) {
+// One place: a second job waits, learns its place, and runs when the first has ended.
+TEST_F(RunCallTest, AJobThatWaitsLearnsItsPlace) {
   std::atomic<bool> done{false};
   std::thread first([&] {
     (void)Run(MakeCall(), [&](const RunContext&) {
@@ -119,17 +118,18 @@ TEST_F(RunCallTest, AJobThatWaitsIsToldItsPlace) {
     });
   });
   while (env_.jobs.running() == 0) std::this_thread::sleep_for(1ms);
-  std::vector<v1::Progress> told;
+  std::vector<v1::Progress> reported;
   const Beat beat = [&](const v1::Progress& progress) {
-    told.push_back(progress);
+    reported.push_back(progress);
     done = true;
     return true;
   };
-  EXPECT_TRUE(RunJobCall(MakeCall(), {.beat = beat}, [](const RunContext&) { return absl::OkStatus(); }).ok());
+  EXPECT_TRUE(
+      RunJobCall(MakeCall(), {.beat = beat}, [](const RunContext&) { return absl::OkStatus(); }).ok());
   first.join();
-  ASSERT_FALSE(told.empty());
-  EXPECT_EQ(told.front().queue_place(), 1);
-  EXPECT_EQ(told.front().job_stage(), v1::JOB_STAGE_QUEUED);
+  ASSERT_FALSE(reported.empty());
+  EXPECT_EQ(reported.front().queue_place(), 1);
+  EXPECT_EQ(reported.front().job_stage(), v1::JOB_STAGE_QUEUED);
   // Calls of milliseconds have places of their own.
   std::thread job([&] { (void)Run(MakeCall(), Endless); });
   while (env_.jobs.running() == 0) std::this_thread::sleep_for(1ms);
@@ -190,9 +190,8 @@ TEST_F(RunCallTest, AnEstimateIsGrantedBeforeTheJobStarts) {
 TEST_F(RunCallTest, AnExceptionBecomesAStatus) {
   EXPECT_THAT(Run(MakeCall(), [](const RunContext&) -> absl::Status { throw std::runtime_error("odd"); }),
               StatusIs(absl::StatusCode::kInternal, HasSubstr("odd")));
-  EXPECT_THAT(
-      Run(MakeCall(), [](const RunContext&) -> absl::Status { throw std::bad_alloc(); }),
-      StatusIs(absl::StatusCode::kResourceExhausted, HasSubstr("memory")));
+  EXPECT_THAT(Run(MakeCall(), [](const RunContext&) -> absl::Status { throw std::bad_alloc(); }),
+              StatusIs(absl::StatusCode::kResourceExhausted, HasSubstr("memory")));
 }
 
 // Of the one that talks, while the other works: it stops the work, and goes its way.

@@ -1,5 +1,5 @@
-// From the end of a call, whatever ends it, to idle cores: at most 0.2 s, on the largest input of every kind that
-// limits.h allows.
+// From the end of a call, whatever ends it, to idle cores: at most 0.2 s, on the largest input of every kind
+// that limits.h allows.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -90,7 +90,8 @@ v1::PatchModel Network(int n) {
   for (int a = 0; a < n; ++a) {
     for (int b = 0; b < n; ++b) {
       v1::NetworkFace& face = *network.add_faces();
-      for (const int v : {a * (n + 1) + b, (a + 1) * (n + 1) + b, (a + 1) * (n + 1) + b + 1, a * (n + 1) + b + 1})
+      for (const int v :
+           {a * (n + 1) + b, (a + 1) * (n + 1) + b, (a + 1) * (n + 1) + b + 1, a * (n + 1) + b + 1})
         face.add_vertices(v);
     }
   }
@@ -114,7 +115,8 @@ v1::GenerateProgramRequest Mill(v1::PatchModel model) {
 void AddPoints(int lines, int each, v1::CurvePoints& points) {
   for (int a = 0; a < lines; ++a) {
     for (int b = 0; b < each; ++b) {
-      for (const double c : {1.0 * a, 1.0 * b, Height(a, b) + 0.1 * ((a * 7 + b * 13) % 11)}) points.add_points_mm(c);
+      for (const double c : {1.0 * a, 1.0 * b, Height(a, b) + 0.1 * ((a * 7 + b * 13) % 11)})
+        points.add_points_mm(c);
     }
   }
 }
@@ -122,7 +124,8 @@ void AddPoints(int lines, int each, v1::CurvePoints& points) {
 // A program of `blocks` feeds over the bump.
 std::string LongProgram(int blocks) {
   std::string text = "G21 G90 G17 G40 G49 G80 G94 G54\nG64 P0.001\nT1 M6\nS12000 M3\nG0 Z30\nG0 X0 Y0\n";
-  for (int k = 0; k < blocks; ++k) text += fmt::format("G1 X{:.3f} Y{:.3f} Z{:.3f} F1200\n", k % 12 + 0.5, k / 12 % 12 + 0.5, 6.0 + k % 3);
+  for (int k = 0; k < blocks; ++k)
+    text += fmt::format("G1 X{:.3f} Y{:.3f} Z{:.3f} F1200\n", k % 12 + 0.5, k / 12 % 12 + 0.5, 6.0 + k % 3);
   return text + "G0 Z30\nM5\nM30\n";
 }
 
@@ -157,7 +160,8 @@ const std::vector<Large>& All() {
        }},
       // What is made of them has nearly kMaxControlPoints.
       {"HighBspline", "ModelService/CheckModel", [] { return Check(Bspline(98, 15)); }},
-      {"Bspline", "ToolpathService/GenerateProgram", [] { return Mill(Bspline(392, 3)).SerializeAsString(); }},
+      {"Bspline", "ToolpathService/GenerateProgram",
+       [] { return Mill(Bspline(392, 3)).SerializeAsString(); }},
       {"Joints", "ModelService/CheckModel", [] { return Check(Sheet(100, 3), limits::kMaxContinuitySteps); }},
       {"Network", "ModelService/CheckModel", [] { return Check(Network(180)); }},
       {"Lines", "AnalysisService/TraceLines",
@@ -272,7 +276,8 @@ TEST_P(DaemonIdle, SoonAfterACallHasEnded) {
     for (int attempt = 0; attempt < 3 && least > limit; ++attempt) {
       RawStream stream(channel, kService + GetParam().method);
       stream.Write(request);
-      std::this_thread::sleep_for(std::chrono::milliseconds(60 + 1900 * (2 * k + 1) / (2 * moments) / (1 + k % 2)));
+      std::this_thread::sleep_for(
+          std::chrono::milliseconds(60 + 1900 * (2 * k + 1) / (2 * moments) / (1 + k % 2)));
       stream.Cancel();
       stream.Finish();
       least = std::min(least, SecondsToIdle(daemon));

@@ -59,12 +59,11 @@ v1::GenerateProgramRequest Large(double size) {
 // Four jobs, each of which needs more than there is, with estimates that are ten times too low.
 TEST(DaemonMemory, JobsThatOutgrowItAreEndedAndTheServerLives) {
   if (testing::kSanitized) GTEST_SKIP() << "a sanitizer has an allocator of its own, which counts nothing";
-  Daemon daemon(kDaemon, {"--memory-limit", "1024", "--max-jobs", "4", "--estimate-factor", "0.1", "--store-mib",
-                          "64", "--max-in-flight-mib", "64"});
+  Daemon daemon(kDaemon, {"--memory-limit", "1024", "--max-jobs", "4", "--estimate-factor", "0.1",
+                          "--store-mib", "64", "--max-in-flight-mib", "64"});
   std::vector<std::future<Ended>> jobs;
   for (int k = 0; k < 4; ++k) {
-    jobs.push_back(
-        std::async(std::launch::async, [&, k] { return Generate(daemon, Large(300.0 + k)); }));
+    jobs.push_back(std::async(std::launch::async, [&, k] { return Generate(daemon, Large(300.0 + k)); }));
   }
   int outgrown = 0;
   for (auto& job : jobs) {
@@ -88,7 +87,7 @@ TEST(DaemonMemory, JobsThatOutgrowItAreEndedAndTheServerLives) {
   EXPECT_EQ(daemon.process().Wait(), 0);
 }
 
-// The estimate is told, and a job that never fits is refused before it starts.
+// The estimate is stated, and a job that never fits is refused before it starts.
 TEST(DaemonMemory, AJobThatNeverFitsIsRefusedAtOnce) {
   Daemon daemon(kDaemon, {"--memory-limit", "256", "--store-mib", "0"});
   const Ended ended = Generate(daemon, Large(2000.0));

@@ -43,7 +43,8 @@ std::shared_ptr<grpc::Channel> ChannelTo(const Daemon& daemon, int keepalive_ms 
 class Job {
  public:
   Job(const Daemon& daemon, const v1::GenerateProgramRequest& request)
-      : stub_(v1::ToolpathService::NewStub(ChannelTo(daemon))), reader_(stub_->GenerateProgram(&context_, request)) {}
+      : stub_(v1::ToolpathService::NewStub(ChannelTo(daemon))),
+        reader_(stub_->GenerateProgram(&context_, request)) {}
   ~Job() {
     context_.TryCancel();
     while (Next()) {
@@ -108,7 +109,7 @@ TEST(DaemonPlaces, ChecksAreNotHeldUpByJobs) {
   EXPECT_LE(best, 3.0);
 }
 
-TEST(DaemonPlaces, AJobThatWaitsIsToldItsPlaceAndRunsInItsTurn) {
+TEST(DaemonPlaces, AJobThatWaitsLearnsItsPlaceAndRunsInItsTurn) {
   Daemon daemon(kDaemon, {"--max-jobs", "1"});
   auto first = std::make_unique<Job>(daemon, LongRequest(1));
   ASSERT_TRUE(first->Next()->has_accepted());
@@ -132,8 +133,8 @@ TEST(DaemonPlaces, AJobThatWaitsIsToldItsPlaceAndRunsInItsTurn) {
   EXPECT_TRUE(runs);
 }
 
-// A job without progress messages, over a connection that pings every 6 s: it is served. gRPC by itself ends a
-// connection at the third ping within five minutes.
+// A job without progress messages, over a connection that pings every 6 s: it is served. gRPC by itself ends
+// a connection at the third ping within five minutes.
 TEST(DaemonPlaces, AClientThatPingsIsServed) {
   Daemon daemon(kDaemon);
   const auto stub = v1::ToolpathService::NewStub(ChannelTo(daemon, 6'000));

@@ -42,7 +42,8 @@ class DiskCacheTest : public ::testing::Test {
     for (const grpc::ByteBuffer& message : messages) {
       std::vector<grpc::Slice> slices;
       EXPECT_TRUE(message.Dump(&slices).ok());
-      for (const grpc::Slice& slice : slices) all.append(reinterpret_cast<const char*>(slice.begin()), slice.size());
+      for (const grpc::Slice& slice : slices)
+        all.append(reinterpret_cast<const char*>(slice.begin()), slice.size());
       all += '|';
     }
     return all;

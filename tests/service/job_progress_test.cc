@@ -36,8 +36,9 @@ TEST(JobProgress, NeitherStageNorFractionRunsBack) {
   JobProgress progress;
   double before = 0.0;
   int stage = 0;
-  for (const char* step : {"joins", "bounds: tree", "regions: heights", "zigzag: ends", "location", "coverage", "link",
-                           "verify", "bounds: tree", "regions: heights", "verify: cells", "triangles"}) {
+  for (const char* step :
+       {"joins", "bounds: tree", "regions: heights", "zigzag: ends", "location", "coverage", "link", "verify",
+        "bounds: tree", "regions: heights", "verify: cells", "triangles"}) {
     for (const double fraction : {0.0, 0.5, 1.0, 0.2}) {
       progress.Step(step, fraction);
       const v1::Progress now = progress.Now();
@@ -67,7 +68,8 @@ TEST(JobProgress, KnowsEveryStepOfThePlanner) {
   std::set<std::string> unknown;
   int found = 0;
   for (const char* folder : {"/core", "/cam"}) {
-    for (const auto& entry : std::filesystem::recursive_directory_iterator(PATCHMILL_SOURCE_DIR + std::string(folder))) {
+    for (const auto& entry :
+         std::filesystem::recursive_directory_iterator(PATCHMILL_SOURCE_DIR + std::string(folder))) {
       if (entry.path().extension() != ".cc" && entry.path().extension() != ".h") continue;
       std::ifstream file(entry.path());
       std::stringstream text;

@@ -17,7 +17,8 @@ constexpr std::int64_t kMib = 1 << 20, kGib = 1 << 30;
 class Machine : public ::testing::Test {
  protected:
   void SetUp() override {
-    root_ = ::testing::TempDir() + "/machine_" + std::to_string(::testing::UnitTest::GetInstance()->random_seed()) +
+    root_ = ::testing::TempDir() + "/machine_" +
+            std::to_string(::testing::UnitTest::GetInstance()->random_seed()) +
             ::testing::UnitTest::GetInstance()->current_test_info()->name();
     std::filesystem::remove_all(root_);
     Write("/proc/meminfo", "MemTotal:        8388608 kB\nMemFree: 1 kB\n");

@@ -92,7 +92,7 @@ TEST(Places, AFullQueueRefuses) {
   { const auto leaving = *std::move(first); }
 }
 
-TEST(Places, ACallThatIsGoneStopsWaitingAndIsToldItsPlace) {
+TEST(Places, ACallThatIsGoneStopsWaitingAndLearnsItsPlace) {
   Places places(1, 5);
   auto first = places.Enter({});
   std::atomic<bool> gone{false};

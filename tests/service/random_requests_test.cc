@@ -47,9 +47,10 @@ class Mutator {
     std::vector<const FieldDescriptor*> set;
     reflection.ListFields(message, &set);
     // Mostly a field that is there: a change deep inside a good request gets farthest.
-    const FieldDescriptor& field = !set.empty() && Chance(0.8)
-                                       ? *set[Below(set.size())]
-                                       : *type.field(static_cast<int>(Below(static_cast<std::size_t>(type.field_count()))));
+    const FieldDescriptor& field =
+        !set.empty() && Chance(0.8)
+            ? *set[Below(set.size())]
+            : *type.field(static_cast<int>(Below(static_cast<std::size_t>(type.field_count()))));
     if (Chance(0.05)) {
       reflection.ClearField(&message, &field);
     } else if (field.is_repeated()) {
@@ -78,9 +79,10 @@ class Mutator {
 
  private:
   double Number() {
-    constexpr double kOdd[] = {0.0,   -0.0,  -1.0, 1.0,  1e-300, 1e300, std::numeric_limits<double>::quiet_NaN(),
-                               1e-9,  1e9,   0.5,  45.0, 1e5,    -1e5,  std::numeric_limits<double>::infinity(),
-                               1e-4, 1000.0};
+    constexpr double kOdd[] = {
+        0.0,  -0.0,  -1.0, 1.0,  1e-300, 1e300, std::numeric_limits<double>::quiet_NaN(),
+        1e-9, 1e9,   0.5,  45.0, 1e5,    -1e5,  std::numeric_limits<double>::infinity(),
+        1e-4, 1000.0};
     return Chance(0.5) ? kOdd[Below(std::size(kOdd))] : std::normal_distribution<>(0.0, 20.0)(random_);
   }
   std::int64_t Integer() {
@@ -88,7 +90,8 @@ class Mutator {
     return kOdd[Below(std::size(kOdd))];
   }
   std::string Text() {
-    const std::string kOdd[] = {"", "f12", "G54", "linuxcnc", "x", std::string(300, 'y'), "\n(", "ä", "json", "step"};
+    const std::string kOdd[] = {"",    "f12", "G54",  "linuxcnc", "x", std::string(300, 'y'),
+                                "\n(", "ä",   "json", "step"};
     return kOdd[Below(std::size(kOdd))];
   }
 
@@ -107,23 +110,34 @@ class Mutator {
         Change(*reflection.MutableRepeatedMessage(&message, &field, at), depth + 1);
       }
     } else {
-      SetElement(message, field, size == 0 || Chance(0.1) ? -1 : static_cast<int>(Below(static_cast<std::size_t>(size))));
+      SetElement(message, field,
+                 size == 0 || Chance(0.1) ? -1 : static_cast<int>(Below(static_cast<std::size_t>(size))));
     }
   }
 
   void SetValue(Message& m, const FieldDescriptor& f) {
     const Reflection& r = *m.GetReflection();
     switch (f.cpp_type()) {
-      case FieldDescriptor::CPPTYPE_DOUBLE: return r.SetDouble(&m, &f, Number());
-      case FieldDescriptor::CPPTYPE_FLOAT: return r.SetFloat(&m, &f, static_cast<float>(Number()));
-      case FieldDescriptor::CPPTYPE_INT32: return r.SetInt32(&m, &f, static_cast<std::int32_t>(Integer()));
-      case FieldDescriptor::CPPTYPE_INT64: return r.SetInt64(&m, &f, Integer());
-      case FieldDescriptor::CPPTYPE_UINT32: return r.SetUInt32(&m, &f, static_cast<std::uint32_t>(Integer()));
-      case FieldDescriptor::CPPTYPE_UINT64: return r.SetUInt64(&m, &f, static_cast<std::uint64_t>(Integer()));
-      case FieldDescriptor::CPPTYPE_BOOL: return r.SetBool(&m, &f, Chance(0.5));
-      case FieldDescriptor::CPPTYPE_ENUM: return r.SetEnumValue(&m, &f, static_cast<int>(Below(9)));
-      case FieldDescriptor::CPPTYPE_STRING: return r.SetString(&m, &f, Text());
-      case FieldDescriptor::CPPTYPE_MESSAGE: return;
+      case FieldDescriptor::CPPTYPE_DOUBLE:
+        return r.SetDouble(&m, &f, Number());
+      case FieldDescriptor::CPPTYPE_FLOAT:
+        return r.SetFloat(&m, &f, static_cast<float>(Number()));
+      case FieldDescriptor::CPPTYPE_INT32:
+        return r.SetInt32(&m, &f, static_cast<std::int32_t>(Integer()));
+      case FieldDescriptor::CPPTYPE_INT64:
+        return r.SetInt64(&m, &f, Integer());
+      case FieldDescriptor::CPPTYPE_UINT32:
+        return r.SetUInt32(&m, &f, static_cast<std::uint32_t>(Integer()));
+      case FieldDescriptor::CPPTYPE_UINT64:
+        return r.SetUInt64(&m, &f, static_cast<std::uint64_t>(Integer()));
+      case FieldDescriptor::CPPTYPE_BOOL:
+        return r.SetBool(&m, &f, Chance(0.5));
+      case FieldDescriptor::CPPTYPE_ENUM:
+        return r.SetEnumValue(&m, &f, static_cast<int>(Below(9)));
+      case FieldDescriptor::CPPTYPE_STRING:
+        return r.SetString(&m, &f, Text());
+      case FieldDescriptor::CPPTYPE_MESSAGE:
+        return;
     }
   }
   void SetElement(Message& m, const FieldDescriptor& f, int at) {
@@ -254,7 +268,8 @@ TEST(RandomRequests, AreAnsweredWithACodeAndAReason) {
     ++failed[name];
     const std::string reason = testing::InfoOf(status).reason();
     EXPECT_NE(reason, "") << name << " " << k << ": " << status.error_code() << " " << status.error_message();
-    EXPECT_NE(status.error_code(), StatusCode::INTERNAL) << name << " " << k << ": " << status.error_message();
+    EXPECT_NE(status.error_code(), StatusCode::INTERNAL)
+        << name << " " << k << ": " << status.error_message();
     EXPECT_NE(status.error_code(), StatusCode::UNKNOWN) << name << " " << k << ": " << status.error_message();
     EXPECT_NE(status.error_message(), "") << name << " " << k;
   }

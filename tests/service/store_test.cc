@@ -10,7 +10,9 @@ StoreKey Model(const std::string& digest, const std::string& caller = "") {
   return {Stored::kModel, caller, digest};
 }
 
-std::shared_ptr<const std::string> Text(const char* text) { return std::make_shared<const std::string>(text); }
+std::shared_ptr<const std::string> Text(const char* text) {
+  return std::make_shared<const std::string>(text);
+}
 
 TEST(Store, FindsWhatWasPutForThisCallerAlone) {
   Store store(1 << 20);

@@ -37,7 +37,8 @@ v1::UploadStart StartOf(const std::string& content, const std::string& format) {
   return start;
 }
 
-Uploaded Upload(const Embedded& embedded, const v1::UploadStart& start, const std::vector<std::string>& chunks) {
+Uploaded Upload(const Embedded& embedded, const v1::UploadStart& start,
+                const std::vector<std::string>& chunks) {
   Uploaded uploaded;
   grpc::ClientContext context;
   const auto writer = embedded.model->UploadModel(&context, &uploaded.response);
@@ -200,7 +201,8 @@ TEST_F(UploadModelTest, ARunningJobIsJoined) {
   request.mutable_job()->mutable_setup()->set_scale(7.0);
   std::vector<Embedded::Stream> streams(4);
   std::vector<std::thread> threads;
-  for (Embedded::Stream& stream : streams) threads.emplace_back([&] { stream = embedded_.Generate(request); });
+  for (Embedded::Stream& stream : streams)
+    threads.emplace_back([&] { stream = embedded_.Generate(request); });
   for (std::thread& thread : threads) thread.join();
   for (const Embedded::Stream& stream : streams) {
     ASSERT_TRUE(stream.status.ok()) << stream.status.error_message();
