@@ -5,6 +5,8 @@
 #include <sstream>
 #include <string_view>
 
+#include <absl/strings/ascii.h>
+#include <absl/strings/str_split.h>
 #include <fmt/format.h>
 
 #include "clients/cli/input_file.h"
@@ -69,8 +71,10 @@ absl::Status CheckItem(const CLI::App& app, const std::string& path, const CLI::
     names.push_back(command->get_name());
     if (!item.parents.empty() && item.parents.front() != command->get_name()) continue;
     known = known || ListedOption(*command, item.name) != nullptr;
-    for (const CLI::Option* option : command->get_options())
-      for (const std::string& name : option->get_lnames()) options.push_back(name);
+    for (const CLI::Option* option : command->get_options()) {
+      for (const std::string& name : option->get_lnames())
+        if (ListedOption(*command, name) != nullptr) options.push_back(name);
+    }
   }
   if (!item.parents.empty() && std::find(names.begin(), names.end(), item.parents.front()) == names.end())
     return Fault(
@@ -81,17 +85,42 @@ absl::Status CheckItem(const CLI::App& app, const std::string& path, const CLI::
                                  near.empty() ? "" : fmt::format("; did you mean {}?", near)));
 }
 
+// Each line is a section, an option with its value, a comment or empty. The reader of CLI11 passes over
+// whatever is none of these.
+absl::Status CheckLines(const std::string& path, const std::string& text) {
+  int number = 0;
+  for (const absl::string_view piece : absl::StrSplit(text, '\n')) {
+    ++number;
+    const std::string line(absl::StripAsciiWhitespace(piece));
+    if (line.empty() || line.front() == '#' || line.front() == ';') continue;
+    const std::size_t equals = line.find('=');
+    const bool is_section = line.front() == '[' && line.back() == ']' && line.size() > 2;
+    const bool is_option =
+        line.front() != '[' && equals != line.npos && equals > 0 && equals + 1 < line.size();
+    if (!is_section && !is_option) {
+      return Fault(path, fmt::format("line {}: \"{}\"; must be NAME = VALUE, [COMMAND] or # COMMENT", number,
+                                     Printable(WireText(line, 60))));
+    }
+    const std::string value(absl::StripAsciiWhitespace(line.substr(equals + 1)));
+    if (is_option && value.front() == '"' && (value.size() == 1 || value.find('"', 1) == value.npos))
+      return Fault(path,
+                   fmt::format("line {}: {} has no closing quote", number, Printable(WireText(value, 60))));
+  }
+  return absl::OkStatus();
+}
+
 }  // namespace
 
-absl::StatusOr<std::vector<std::string>> WithDefaults(const CLI::App& app,
-                                                      std::vector<std::string> arguments) {
+absl::StatusOr<Arguments> WithDefaults(const CLI::App& app, std::vector<std::string> arguments) {
   absl::StatusOr<std::optional<std::string>> path = TakePath(arguments);
   if (!path.ok()) return path.status();
-  if (!*path) return arguments;
+  if (!*path) return Arguments{.words = std::move(arguments), .file = {}, .of_file = {}};
   const absl::StatusOr<std::string> text = ReadWholeFile(**path);
   if (!text.ok()) return text.status();
   constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-  std::istringstream in(text->compare(0, 3, kByteOrderMark) == 0 ? text->substr(3) : *text);
+  const std::string lines = text->compare(0, 3, kByteOrderMark) == 0 ? text->substr(3) : *text;
+  if (const absl::Status good = CheckLines(**path, lines); !good.ok()) return good;
+  std::istringstream in(lines);
   std::vector<CLI::ConfigItem> items;
   try {
     items = CLI::ConfigTOML().from_config(in);
@@ -105,7 +134,7 @@ absl::StatusOr<std::vector<std::string>> WithDefaults(const CLI::App& app,
   // Options of the section of the command go before those above all sections.
   std::stable_partition(items.begin(), items.end(),
                         [](const CLI::ConfigItem& item) { return !item.parents.empty(); });
-  std::vector<std::string> more;
+  std::vector<std::string> more, names;
   for (const CLI::ConfigItem& item : items) {
     if (item.name == "++" || item.name == "--") continue;  // the reader's marks of sections
     if (item.parents.size() > 1)
@@ -117,6 +146,7 @@ absl::StatusOr<std::vector<std::string>> WithDefaults(const CLI::App& app,
     // A tool of the command line brings its own values.
     const CLI::Option* const tool = chosen->get_option_no_throw("--tool");
     if (tool != nullptr && option->get_group() == tool->get_group() && IsGiven(arguments, *tool)) continue;
+    names.push_back("--" + item.name);
     if (option->get_items_expected_max() == 0) {
       const std::string value = item.inputs.empty() ? "true" : item.inputs.front();
       const bool on = value == "true" || value == "yes" || value == "1";
@@ -136,7 +166,7 @@ absl::StatusOr<std::vector<std::string>> WithDefaults(const CLI::App& app,
     more.insert(more.end(), item.inputs.begin(), item.inputs.end());
   }
   arguments.insert(arguments.end(), more.begin(), more.end());
-  return arguments;
+  return Arguments{.words = std::move(arguments), .file = **path, .of_file = std::move(names)};
 }
 
 }  // namespace patchmill::cli

@@ -32,7 +32,8 @@ const std::vector<NamedInput>& NamedInputs() { return Named(); }
 
 const std::vector<std::string>& FilesRead() { return Read(); }
 
-absl::StatusOr<std::string> ReadWholeFile(const std::string& path) {
+absl::StatusOr<std::string> ReadWholeFile(const std::string& name) {
+  const std::string path = name == "-" ? "/dev/stdin" : name;
   Read().push_back(path);
   std::error_code error;
   if (std::filesystem::is_directory(path, error)) {

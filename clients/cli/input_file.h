@@ -11,9 +11,9 @@ namespace patchmill::cli {
 
 inline constexpr std::size_t kMaxFileBytes = std::size_t{64} << 20;  // limit of a message on the wire
 
-// The bytes of a file. INVALID_ARGUMENT with the reason if it cannot be read or is longer than kMaxFileBytes.
-// Reading stops there.
-absl::StatusOr<std::string> ReadWholeFile(const std::string& path);
+// The bytes of a file; "-" is the standard input. INVALID_ARGUMENT with the reason if it cannot be read or is
+// longer than kMaxFileBytes. Reading stops there.
+absl::StatusOr<std::string> ReadWholeFile(const std::string& name);
 
 // All paths that ReadWholeFile has read. No result replaces one of these files (output_file.h).
 const std::vector<std::string>& FilesRead();

@@ -14,6 +14,7 @@
 #include "clients/cli/option_groups.h"
 #include "clients/cli/posts.h"
 #include "clients/cli/shared_options.h"
+#include "clients/cli/text.h"
 #include "clients/cli/usage_fault.h"
 #include "server/serve_flags.h"
 #include "server/server.h"
@@ -64,9 +65,13 @@ constexpr CommandEntry kEntries[] = {
 };
 
 // --help and --version are no errors.
-int UsageError(const CLI::App& app, const CLI::ParseError& error) {
+int UsageError(const CLI::App& app, const CLI::ParseError& error, const Arguments& arguments) {
   if (error.get_exit_code() == 0) return app.exit(error);
   fmt::print(stderr, "{}", UsageFault(app, error));
+  for (const std::string& option : arguments.of_file) {
+    if (std::string(error.what()).rfind(option + ":", 0) == 0)
+      fmt::print(stderr, "{} comes from --config {}.\n", option, Printable(arguments.file));
+  }
   return 2;
 }
 
@@ -106,16 +111,16 @@ int Main(int argc, char** argv) {
   for (CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
     command->group("Commands");
 
-  absl::StatusOr<std::vector<std::string>> arguments = WithDefaults(app, {argv + 1, argv + argc});
+  const absl::StatusOr<Arguments> arguments = WithDefaults(app, {argv + 1, argv + argc});
   if (!arguments.ok()) {
     fmt::print(stderr, "patchmill: {}\n", std::string(arguments.status().message()));
     return 2;
   }
   try {
-    app.parse(
-        std::vector<std::string>(arguments->rbegin(), arguments->rend()));  // CLI11 takes the last one first
+    app.parse(std::vector<std::string>(arguments->words.rbegin(),
+                                       arguments->words.rend()));  // CLI11 takes the last one first
   } catch (const CLI::ParseError& error) {
-    return UsageError(app, error);
+    return UsageError(app, error, *arguments);
   }
   if (serve->parsed()) return Serve(server);
   if (man->parsed()) {

@@ -41,24 +41,30 @@ std::string Target(const std::string& path) {
   return "";
 }
 
+bool IsNoFile(const std::string& path) {
+  struct stat info {};
+  return stat(path.c_str(), &info) == 0 && !S_ISREG(info.st_mode);
+}
+
 // Whether a result is written into what the path leads to, not put in its place: devices, pipes, open files.
 bool IsSpecial(const std::string& path) {
-  struct stat info {};
-  return stat(path.c_str(), &info) == 0 && (!S_ISREG(info.st_mode) || Target(path).empty());
+  return IsNoFile(path) || (access(path.c_str(), F_OK) == 0 && Target(path).empty());
 }
 
 // Whether two paths are one regular file, which need not exist yet. Other files (pipes) may take several
 // results.
 bool IsSame(const std::string& a, const std::string& b) {
-  if (IsSpecial(a) || IsSpecial(b)) return false;
-  std::error_code no_file, no_path;
-  if (std::filesystem::equivalent(a, b, no_file)) return true;
-  const auto whole = [&](const std::string& path) {
-    const auto from_root = std::filesystem::absolute(Target(path), no_path);
-    return no_path ? std::filesystem::path() : std::filesystem::weakly_canonical(from_root, no_path);
+  if (IsNoFile(a) || IsNoFile(b)) return false;
+  std::error_code error;
+  if (std::filesystem::equivalent(a, b, error)) return true;
+  const auto whole = [&error](const std::string& path) -> std::filesystem::path {
+    const std::string target = Target(path);
+    if (target.empty()) return {};
+    const auto from_root = std::filesystem::absolute(target, error);
+    return error ? std::filesystem::path() : std::filesystem::weakly_canonical(from_root, error);
   };
-  const auto here = whole(a), there = whole(b);
-  return !no_path && here == there;
+  const auto here = whole(a);
+  return !here.empty() && here == whole(b);
 }
 
 absl::Status CheckNotRead(const std::string& path) {
@@ -145,6 +151,8 @@ absl::Status CheckWritable(std::initializer_list<const OutputFile*> files) {
     if (!file->wanted()) continue;
     if (const absl::Status writable = file->CheckWritable(); !writable.ok()) return writable;
     for (const OutputFile* other : seen) {
+      if (file->is_standard() && other->is_standard())
+        return absl::InvalidArgumentError("two results go to the standard output; give one of them a file");
       if (IsSame(file->path(), other->path()))
         return absl::InvalidArgumentError(fmt::format("{} is the output file of two results", file->path()));
     }

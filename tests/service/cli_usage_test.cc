@@ -211,6 +211,16 @@ TEST_F(CliDefaults, FaultsOfTheFileAreNamed) {
   EXPECT_THAT(error("[mill]\nkind = contour\n"), HasSubstr("mill.kind is no option"));
   EXPECT_THAT(error("high-rapids = perhaps\n"), HasSubstr("high-rapids = perhaps; must be true or false"));
   EXPECT_THAT(error("scallop = much\n"), HasSubstr("\"much\" is not a finite number"));
+  EXPECT_THAT(error("scallop = much\n"),
+              HasSubstr("--scallop comes from --config " + in_ / "bad.ini" + ".\n"));
+  EXPECT_THAT(error("# shop\nscallop\n"),
+              HasSubstr("bad.ini: line 2: \"scallop\"; must be NAME = VALUE, [COMMAND]"));
+  EXPECT_THAT(error("= 3\n"), HasSubstr("line 1: \"= 3\"; must be"));
+  EXPECT_THAT(error("scallop =\n"), HasSubstr("line 1: \"scallop =\"; must be"));
+  EXPECT_THAT(error("\n[mill\n"), HasSubstr("line 2: \"[mill\"; must be"));
+  EXPECT_THAT(error("\xff\xfe"), HasSubstr("line 1: "));
+  EXPECT_THAT(error("spindle = \"8000\n"), HasSubstr("line 1: \"8000 has no closing quote"));
+  EXPECT_THAT(error("help = true\n"), HasSubstr("help is no option\n"));
   EXPECT_EQ(Mill({"--config", in_ / "missing.ini"}).status, 2);
   EXPECT_EQ(Mill({"--config"}).status, 2);
 }
@@ -238,10 +248,31 @@ TEST_F(CliDefaults, ResultsGoToTheStandardOutput) {
   ASSERT_EQ(run.status, 0) << run.err;
   ASSERT_EQ(Mill({"--scallop", "0.1", "--tolerance", "0.03"}).status, 0);
   EXPECT_EQ(run.out, Slurp(out_ / "part.ngc"));
+  const Finished both = Patchmill({"mill", model_, "-o", "-", "--report", "-"});
+  EXPECT_EQ(both.status, 2);
+  EXPECT_THAT(both.err, HasSubstr("two results go to the standard output; give one of them a file"));
+  EXPECT_EQ(both.out, "");
   const Finished map = Patchmill({"regions", model_, "-o", "-", "--floor", "-8"});
   ASSERT_EQ(map.status, 0) << map.err;
   EXPECT_EQ(map.out.front(), '{');
   EXPECT_EQ(map.out.substr(map.out.size() - 2), "}\n");
+}
+
+TEST_F(CliDefaults, InputsComeFromTheStandardInput) {
+  ASSERT_EQ(Mill({"--scallop", "0.1", "--tolerance", "0.03"}).status, 0);
+  const std::string line = PATCHMILL_BIN "/patchmill check - < " + model_;
+  EXPECT_EQ(testing::Run({"/bin/bash", "-c", line}).out, Patchmill({"check", model_}).out);
+  const std::string verify = PATCHMILL_BIN "/patchmill verify " + model_ +
+                             " - --tool-diameter 6 --floor -8 --scallop 0.1 --tolerance 0.03 < " +
+                             out_ / "part.ngc";
+  const Finished judged = testing::Run({"/bin/bash", "-c", verify});
+  EXPECT_EQ(judged.status, 0) << judged.err;
+  EXPECT_THAT(judged.out, HasSubstr("finish    PASSED"));
+  // A file is no result of the command that reads it, whatever its name.
+  const Finished over =
+      testing::Run({"/bin/bash", "-c", PATCHMILL_BIN "/patchmill convert - " + model_ + " < " + model_});
+  EXPECT_EQ(over.status, 2);
+  EXPECT_THAT(over.err, HasSubstr("is an input"));
 }
 
 TEST_F(CliDefaults, TheUnitOfAFileWithoutOneIsStated) {
