@@ -91,6 +91,16 @@ absl::Status ReadSyntax(std::string_view value, Syntax& out) {
   return Bad(fmt::format("= {}; must be rs274, siemens or klartext", Quoted(value)));
 }
 
+absl::Status ReadFamily(std::string_view value, WordFamily& out) {
+  const std::optional<WordFamily> family = FamilyOf(value);
+  if (!family) {
+    return Bad(fmt::format("= {}; must be fanuc, grbl, haas, heidenhain, linuxcnc, mach3 or siemens",
+                           Quoted(value)));
+  }
+  out = *family;
+  return absl::OkStatus();
+}
+
 absl::Status ReadPathTemplate(std::string_view value, bool with_tolerance, std::string& out) {
   PM_RETURN_IF_ERROR(CheckTemplate(value));
   const bool has = value.find("{tolerance}") != std::string_view::npos;
@@ -138,6 +148,7 @@ const std::map<std::string, Reader, std::less<>>& Keys() {
       {"control.name", [](View v, Dialect& d) { return ReadName(v, d.name); }},
       {"control.title", [](View v, Dialect& d) { return ReadText(v, d.title); }},
       {"control.syntax", [](View v, Dialect& d) { return ReadSyntax(v, d.syntax); }},
+      {"control.reads_as", [](View v, Dialect& d) { return ReadFamily(v, d.family); }},
       {"control.decimals",
        [](View v, Dialect& d) { return ReadInteger(v, 2, 6, d.decimals[ProgramUnit::kMillimeter]); }},
       {"control.decimals_inch",
