@@ -37,6 +37,8 @@ absl::Status CheckUse(const BlockModes& block, int motion_code, const Dialect& d
   if (block['Q'] && !smooth && !own && !cycle) return Bad("Q without G64, G73 or G83");
   if (own && (HasAxis(block) || HasCenter(block) || block.once))
     return Bad("coordinates beside a word of the dialect's own");
+  if (own && block.word->tolerance_letter != '\0' && block[block.word->tolerance_letter].value_or(0.0) < 0.0)
+    return Bad(fmt::format("{} is negative", block.word->tolerance_letter));
   if (block['H'] && block.tool_length != 430) return Bad("H without G43");
   if (block['D'] && block.compensation.value_or(400) == 400) return Bad("D without G41 or G42");
   if (dwell && (!block['P'] || smooth || HasAxis(block))) return Bad("G4 needs P and no coordinates");

@@ -218,7 +218,9 @@ absl::Status Interpreter::SetOffsets(const BlockModes& block) {
     const int of =
         *block.tool_length == 430 && block['H'] ? static_cast<int>(std::min(*block['H'], 1e9)) : -1;
     const auto entry = [&](int h) { return h < 0 ? loaded_ : h; };  // G43 without H means the loaded tool
-    if (!above_ && (*block.tool_length != tool_length_ || entry(of) != entry(length_of_))) shifted_ = true;
+    const bool none = !dialect_.length_offset && *block.tool_length == 490;  // there is nothing to cancel
+    const bool same = *block.tool_length == tool_length_ && entry(of) == entry(length_of_);
+    if (!above_ && !none && !same) shifted_ = true;
     tool_length_ = *block.tool_length;
     length_of_ = of;
   }
@@ -359,7 +361,7 @@ void Interpreter::NoteBlock(const BlockModes& block) {
   if (block.without_effect.empty()) return;
   constexpr std::size_t kMost = 12;
   const auto known = [&](const std::string& text) {
-    return text.compare(0, text.find(' '), block.without_effect) == 0;
+    return text.compare(0, text.rfind(" (line"), block.without_effect) == 0;
   };
   if (without_effect_.size() > kMost || IsOfPost(block.without_effect) ||
       std::any_of(without_effect_.begin(), without_effect_.end(), known))
@@ -369,11 +371,20 @@ void Interpreter::NoteBlock(const BlockModes& block) {
                                 : fmt::format("{} (line {})", block.without_effect, line_));
 }
 
+// Whether the line has the word, and not a longer one: G8, but not G80 and not G8.1.
+bool HasWord(const std::string& line, const std::string& word) {
+  for (std::size_t at = line.find(word); at != std::string::npos; at = line.find(word, at + 1)) {
+    const char next = at + word.size() < line.size() ? line[at + word.size()] : ' ';
+    if (next != '.' && !(next >= '0' && next <= '9')) return true;
+  }
+  return false;
+}
+
 // Whether the post of the dialect writes the word itself.
 bool Interpreter::IsOfPost(const std::string& word) const {
   const auto has = [&](const std::vector<std::string>& lines) {
     return std::any_of(lines.begin(), lines.end(),
-                       [&](const std::string& line) { return line.find(word) != std::string::npos; });
+                       [&](const std::string& line) { return HasWord(line, word); });
   };
   return has(dialect_.begin) || has(dialect_.end) || has(dialect_.restart);
 }

@@ -67,6 +67,7 @@ class LineReader {
     if (letter == 'H') return Refuse("H is not supported; the tool's length comes from D");
     if (letter == 'D') return Edge(item.number);
     if (letter == 'G') return GWord(item.number);
+    if (IsCenter(item.name)) ++relative_centers_;
     Push(letter, item.number);
     return absl::OkStatus();
   }
@@ -320,7 +321,16 @@ absl::StatusOr<std::optional<BlockModes>> SiemensReader::Read(std::string_view t
   for (const std::string_view name : {"%_N", "%MPF", "%SPF"}) {
     if (begin != text.npos && text.substr(begin, name.size()) == name) return std::nullopt;
   }
-  PM_RETURN_IF_ERROR(SplitSiemensLine(text, line_));
+  if (const absl::Status split = SplitSiemensLine(text, line_); !split.ok()) {
+    // A word before the fault may say more about the line.
+    for (const SiemensItem& item : line_.items) {
+      const SiemensName* const known =
+          item.kind == SiemensItem::Kind::kKeyword ? FindKeyword(item.name) : nullptr;
+      if (known != nullptr && known->use == NameUse::kRefused)
+        return Refuse(fmt::format("{}: {}", item.name, known->note));
+    }
+    return split;
+  }
   return LineReader(dialect_).Run(line_);
 }
 

@@ -19,6 +19,7 @@ constexpr std::string_view kArc = "this form of an arc is not read; post arcs wi
 constexpr std::string_view kPolar =
     "polar coordinates and angles are not read; post the program with X, Y and Z";
 constexpr std::string_view kCorner = "the control inserts chamfers and roundings by itself; post the moves";
+constexpr std::string_view kSoft = "soft approach and retraction move by a way that the program does not say";
 constexpr std::string_view kFrames =
     "it shifts, turns, scales or mirrors the program by what the control holds";
 constexpr std::string_view kKinematics =
@@ -213,6 +214,10 @@ constexpr SiemensName kAddresses[] = {
     {"ANG1", kRefused, kPolar},
     {"ANG2", kRefused, kPolar},
     {"RPL", kRefused, kFrames},
+    {"DISR", kRefused, kSoft},
+    {"DISCL", kRefused, kSoft},
+    {"DISRP", kRefused, kSoft},
+    {"FAD", kRefused, kSoft},
 };
 
 constexpr SiemensName kCalls[] = {

@@ -43,6 +43,7 @@ absl::StatusOr<std::optional<double>> TakeValues(const WordRule& rule, const std
       return WordFault(fmt::format("{} with {}{:g}: {}", spelling, letter, *value, rule.note));
     if (letter == rule.takes.front()) first = value;
     block.still = block.still || (value && (letter == 'X' || letter == 'Y' || letter == 'Z'));
+    if (value && block.without_point == letter) block.without_point = '\0';  // it is no coordinate
     value = std::nullopt;
   }
   return first;
