@@ -14,6 +14,8 @@ struct PostFault {
   std::string message;
 };
 
+inline constexpr std::size_t kLongestPostFile = 100'000;  // characters
+
 struct ReadPost {
   Dialect dialect;                // what could be read
   std::vector<PostFault> faults;  // those of lines in their order, then those of the whole file

@@ -17,8 +17,8 @@
 namespace patchmill {
 namespace {
 
-constexpr std::size_t kMostFaults = 100;                           // that are named
-constexpr std::size_t kLongestFile = 100'000, kLongestLine = 200;  // characters
+constexpr std::size_t kMostFaults = 100;   // that are named
+constexpr std::size_t kLongestLine = 200;  // characters
 
 absl::Status Bad(const std::string& message) { return absl::InvalidArgumentError(message); }
 
@@ -447,8 +447,8 @@ class PostFileReader {
 }  // namespace
 
 ReadPost ReadPostFile(std::string_view text) {
-  if (text.size() > kLongestFile)
-    return {Dialect(), {{0, fmt::format("longer than {} characters", kLongestFile)}}};
+  if (text.size() > kLongestPostFile)
+    return {Dialect(), {{0, fmt::format("longer than {} characters", kLongestPostFile)}}};
   PostFileReader reader;
   int line = 0;
   for (std::size_t begin = 0; begin < text.size();) {
