@@ -12,7 +12,7 @@ namespace patchmill {
 struct PostCheck {
   std::vector<PostFault> faults;  // empty: programs can be written with it
   std::string name;               // of the dialect
-  // The dialect that Patchmill brings along with which the file shares most lines; comments and empty lines do
+  // The dialect that Patchmill brings along with which the file shares most lines. Comments and empty lines do
   // not count. Empty if they share none.
   std::string base;
   struct OwnLine {

@@ -17,7 +17,8 @@ namespace patchmill {
 // is a machine Z below the dialect's machine_top), TOOL_CHANGE_ASSUMED (it happens above everything),
 // TOOL_ASSUMED (the one before the first tool change), CYCLE_END_ASSUMED (G98), SPINDLE_REVERSED (a left-hand
 // cutter), ROTARY_ASSUMED (rotary axes stand at 0), TOOL_NAME_ASSUMED (a tool with a name is that of the
-// set-up), WORD_ASSUMED (a word of the machine's builder), CONTROL_DEVIATION_ASSUMED and WORD_EXPLAINED (what the user says of the control).
+// set-up), WORD_ASSUMED (a word of the machine's builder), CONTROL_DEVIATION_ASSUMED and WORD_EXPLAINED (what
+// the user says of the control).
 std::vector<std::string> AssumptionCodes(const Diagnostics& findings);
 
 }  // namespace patchmill
