@@ -26,7 +26,7 @@ bool IsStatedByUser(std::string_view code, const Dialect& dialect) {
   if (code == "LENGTH_OFFSET_ASSUMED") return !dialect.length_offset;
   return code == "CONTROL_DEVIATION_ASSUMED" || code == "MACHINE_Z_ASSUMED" || code == "WORD_EXPLAINED" ||
          code == "REFERENCE_ASSUMED" || (code == "PATH_MODE_ASSUMED" && dialect.follows_exactly) ||
-         code == "FEED_IN_UNIT_BEFORE";
+         code == "FEED_IN_UNIT_BEFORE" || code == "WORD_ASSUMED" || code == "WORDS_WITHOUT_EFFECT";
 }
 
 // The first assumption that the program itself should have ruled out; nullptr if there is none.
@@ -87,11 +87,12 @@ class WordCheck {
 
  private:
   std::optional<Fault> FaultOf(const BlockModes& block, int line) {
-    if (block.work_offset && fmt::format("G{}", *block.work_offset / 10) != job_.work_offset) {
-      return Fault{
-          "POST_OTHER_OFFSET", line,
-          fmt::format("the post file {} chooses G{}, and the job has {}: write {{work_offset}} there",
-                      dialect_.name, *block.work_offset / 10, job_.work_offset)};
+    // Presets of a Heidenhain control are not among the job's work offsets.
+    const bool preset = dialect_.syntax == Syntax::kKlartext;
+    if (block.work_offset && !preset && OffsetName(*block.work_offset) != job_.work_offset) {
+      return Fault{"POST_OTHER_OFFSET", line,
+                   fmt::format("the post file {} chooses {}, and the job has {}: write {{work_offset}} there",
+                               dialect_.name, OffsetName(*block.work_offset), job_.work_offset)};
     }
     const int number = job_.operation.tool.number;
     if (dialect_.syntax != Syntax::kRs274) return std::nullopt;

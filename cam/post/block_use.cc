@@ -1,5 +1,6 @@
 #include "cam/post/block_use.h"
 
+#include <cmath>
 #include <string>
 
 #include <fmt/format.h>
@@ -28,11 +29,16 @@ absl::Status CheckUse(const BlockModes& block, int motion_code, const Dialect& d
   const bool arc = IsArc(mode) && moves, cycle = IsCycle(mode) && moves;
   const bool own = block.word.has_value();
   PM_RETURN_IF_ERROR(CheckCycle(block, dialect, cycle && !dwell));
-  if (block['P'] && !dwell && !smooth && !own && !cycle && !(arc && dialect.arc_turns))
+  // The second to fourth reference point.
+  const bool numbered = block.once == 300 && block['P'] && *block['P'] >= 2.0 && *block['P'] <= 4.0 &&
+                        *block['P'] == std::floor(*block['P']);
+  if (block['P'] && !dwell && !smooth && !own && !cycle && !(arc && dialect.arc_turns) && !numbered)
     return Bad("P without G4 or G64");
   if (block['Q'] && !smooth && !own && !cycle) return Bad("Q without G64, G73 or G83");
   if (own && (HasAxis(block) || HasCenter(block) || block.once))
     return Bad("coordinates beside a word of the dialect's own");
+  if (own && block.word->tolerance_letter != '\0' && block[block.word->tolerance_letter].value_or(0.0) < 0.0)
+    return Bad(fmt::format("{} is negative", block.word->tolerance_letter));
   if (block['H'] && block.tool_length != 430) return Bad("H without G43");
   if (block['D'] && block.compensation.value_or(400) == 400) return Bad("D without G41 or G42");
   if (dwell && (!block['P'] || smooth || HasAxis(block))) return Bad("G4 needs P and no coordinates");

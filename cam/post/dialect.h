@@ -11,6 +11,7 @@
 
 #include <absl/status/statusor.h>
 
+#include "cam/post/word_rules.h"
 #include "cam/toolpath/arc.h"
 #include "core/base/enum_array.h"
 
@@ -46,6 +47,7 @@ inline constexpr EnumArray<ProgramUnit, double> kMillimetersPer{{{1.0, 25.4}}};
 struct Dialect {
   std::string name, title;
   Syntax syntax = Syntax::kRs274;
+  WordFamily family = WordFamily::kNone;           // whose words programs of others have, beside `words`
   EnumArray<ProgramUnit, int> decimals{{{4, 5}}};  // of X, Y, Z
   // The word that {unit} stands for. Empty: the dialect has no programs in that unit.
   EnumArray<ProgramUnit, std::string> unit_word;

@@ -38,6 +38,31 @@ absl::Status StripLine(std::string_view line, std::string& code) {
   return absl::OkStatus();
 }
 
+// Names of programs: O1000, :1000 on controls that read ISO code, <PART_1>.
+bool IsProgramName(std::string_view code) {
+  constexpr std::size_t kLongestNumber = 9, kLongestName = 40;  // characters
+  if (code.size() < 2) return false;
+  if (code.front() == '<') return code.back() == '>' && code.size() <= kLongestName;
+  return (code.front() == 'O' || code.front() == ':') && code.size() <= kLongestNumber &&
+         code.find_first_not_of("0123456789", 1) == std::string_view::npos;
+}
+
+// Why a line is refused that is more than a misspelt word; empty if it is not.
+std::string_view ForeignGrammar(std::string_view code) {
+  constexpr std::string_view kFlow =
+      "program flow and variables are not supported; post the program without them";
+  for (const std::string_view word :
+       {"GOTO", "IF[", "WHILE[", "THEN", "DO1", "DO2", "END1", "END2", "POPEN", "DPRNT"}) {
+    if (code.find(word) != std::string_view::npos) return kFlow;
+  }
+  if (!code.empty() &&
+      (code.front() == '$' || code.front() == '?' || code.front() == '!' || code.front() == '~'))
+    return "a command to the controller, such as $H, is no line of a program; send it apart";
+  return "";
+}
+
+absl::Status ReadWords(std::string_view code, GcodeBlock& block);
+
 }  // namespace
 
 absl::Status ParseGcodeLine(std::string_view line, GcodeBlock& block) {
@@ -49,11 +74,19 @@ absl::Status ParseGcodeLine(std::string_view line, GcodeBlock& block) {
     block.percent = true;
     return absl::OkStatus();
   }
-  if (code.size() >= 2 && code.size() <= 9 && code.front() == 'O' &&
-      code.find_first_not_of("0123456789", 1) == std::string::npos) {
+  if (IsProgramName(code)) {
     block.program_number = true;
     return absl::OkStatus();
   }
+  const absl::Status read = ReadWords(code, block);
+  if (read.ok()) return read;
+  const std::string_view foreign = ForeignGrammar(code);
+  return foreign.empty() ? read : Bad(std::string(foreign));
+}
+
+namespace {
+
+absl::Status ReadWords(std::string_view code, GcodeBlock& block) {
   std::size_t at = 0;
   if (!code.empty() && code.front() == '/') {
     block.deletable = true;
@@ -78,10 +111,12 @@ absl::Status ParseGcodeLine(std::string_view line, GcodeBlock& block) {
       if (!first) return Bad("N within a line");
       continue;
     }
-    const std::string_view digits = std::string_view(code).substr(value_at, at - value_at);
+    const std::string_view digits = code.substr(value_at, at - value_at);
     block.words.push_back({letter, number, digits.find_first_of(".[") != digits.npos});
   }
   return absl::OkStatus();
 }
+
+}  // namespace
 
 }  // namespace patchmill

@@ -9,13 +9,16 @@
 
 #include "cam/post/dialect.h"
 #include "cam/post/gcode_modes.h"
+#include "cam/post/post_end.h"
+#include "cam/post/post_faults.h"
 #include "cam/post/post_template.h"
 #include "core/base/status.h"
 
 namespace patchmill {
 namespace {
 
-constexpr std::size_t kLongestFile = 100'000, kLongestLine = 200;  // characters
+constexpr std::size_t kMostFaults = 100;   // that are named
+constexpr std::size_t kLongestLine = 200;  // characters
 
 absl::Status Bad(const std::string& message) { return absl::InvalidArgumentError(message); }
 
@@ -91,6 +94,16 @@ absl::Status ReadSyntax(std::string_view value, Syntax& out) {
   return Bad(fmt::format("= {}; must be rs274, siemens or klartext", Quoted(value)));
 }
 
+absl::Status ReadFamily(std::string_view value, WordFamily& out) {
+  const std::optional<WordFamily> family = FamilyOf(value);
+  if (!family) {
+    return Bad(fmt::format("= {}; must be fanuc, grbl, haas, heidenhain, linuxcnc, mach3 or siemens",
+                           Quoted(value)));
+  }
+  out = *family;
+  return absl::OkStatus();
+}
+
 absl::Status ReadPathTemplate(std::string_view value, bool with_tolerance, std::string& out) {
   PM_RETURN_IF_ERROR(CheckTemplate(value));
   const bool has = value.find("{tolerance}") != std::string_view::npos;
@@ -138,6 +151,7 @@ const std::map<std::string, Reader, std::less<>>& Keys() {
       {"control.name", [](View v, Dialect& d) { return ReadName(v, d.name); }},
       {"control.title", [](View v, Dialect& d) { return ReadText(v, d.title); }},
       {"control.syntax", [](View v, Dialect& d) { return ReadSyntax(v, d.syntax); }},
+      {"control.reads_as", [](View v, Dialect& d) { return ReadFamily(v, d.family); }},
       {"control.decimals",
        [](View v, Dialect& d) { return ReadInteger(v, 2, 6, d.decimals[ProgramUnit::kMillimeter]); }},
       {"control.decimals_inch",
@@ -206,7 +220,7 @@ std::string KeysOf(std::string_view section) {
   std::string list;
   for (const auto& [key, reader] : Keys()) {
     if (key.compare(0, section.size(), section) == 0 && key[section.size()] == '.')
-      list += (list.empty() ? "" : ", ") + key.substr(section.size() + 1);
+      list += fmt::format("{}{}", list.empty() ? "" : ", ", key.substr(section.size() + 1));
   }
   return list;
 }
@@ -265,7 +279,30 @@ absl::Status ReadWord(std::string_view given, std::string_view meaning, Dialect&
 // Reads the lines one after the other.
 class PostFileReader {
  public:
-  absl::Status Line(std::string_view line) {
+  void Line(std::string_view line, int number) {
+    line_ = number;
+    if (faults_.size() >= kMostFaults) return;
+    if (const absl::Status read = Read(line); !read.ok()) Add(number, read);
+  }
+
+  ReadPost Take(std::string_view text) {
+    // What a faulty line would have set is not missed a second time.
+    const bool readable = faults_.empty();
+    CheckMissing(readable);
+    if (readable) CheckLines();
+    if (!seen_.contains("control.decimals_inch"))
+      dialect_.decimals[ProgramUnit::kInch] = dialect_.decimals[ProgramUnit::kMillimeter] + 1;
+    if (dialect_.title.empty()) dialect_.title = dialect_.name;
+    dialect_.text = text;
+    if (faults_.empty()) CheckModes();
+    return {std::move(dialect_), std::move(faults_)};
+  }
+
+ private:
+  void Add(int line, const absl::Status& status) { faults_.push_back({line, std::string(status.message())}); }
+  void Whole(const std::string& message) { faults_.push_back({0, message}); }
+
+  absl::Status Read(std::string_view line) {
     const std::string_view text = Trimmed(line);
     if (text.empty() || text.front() == '#') return absl::OkStatus();
     for (const char c : text) {
@@ -278,7 +315,11 @@ class PostFileReader {
     }
     if (text.size() > kLongestLine) return Bad(fmt::format("longer than {} characters", kLongestLine));
     if (text.front() == '[') return Section(text);
-    if (section_.empty()) return Bad("text before the first section, [control]");
+    if (section_ == kFaultySection) return absl::OkStatus();
+    if (section_.empty()) {
+      section_ = kFaultySection;
+      return Bad("text before the first section, [control]");
+    }
     if (section_ == "begin" || section_ == "restart" || section_ == "end") return Template(text);
     const std::size_t equals = text.find('=');
     if (equals == std::string_view::npos) return Bad("must be \"key = value\"");
@@ -287,45 +328,52 @@ class PostFileReader {
     return Key(key, value);
   }
 
-  absl::StatusOr<Dialect> Take(std::string_view text) {
-    if (dialect_.name.empty()) return Bad("[control] name is missing");
-    if (dialect_.comment_open.empty()) return Bad("[control] comment is missing");
-    if (dialect_.max_comment_length == 0) return Bad("[control] comment_length is missing");
-    if (dialect_.begin.empty()) return Bad("[begin] is missing");
-    if (dialect_.end.empty()) return Bad("[end] is missing");
+  void CheckMissing(bool readable) {
+    for (const char* const key : {"name", "comment", "comment_length"}) {
+      if (!seen_.contains(fmt::format("control.{}", key))) Whole(fmt::format("[control] {} is missing", key));
+    }
+    const bool empty_begin = readable && dialect_.begin.empty(), empty_end = readable && dialect_.end.empty();
+    if (empty_begin || !seen_.contains("[begin]")) Whole("[begin] is missing");
+    if (empty_end || !seen_.contains("[end]")) Whole("[end] is missing");
+  }
+
+  // Whether the lines have the placeholders that they need, and the keys agree.
+  void CheckLines() {
     for (const char axis : {'x', 'y', 'z'}) {
       const std::string place = fmt::format("{{{}}}", axis);
-      if (!Has(dialect_.begin, place)) return Bad("[begin] nowhere sends the tool to " + place);
+      if (!dialect_.begin.empty() && !Has(dialect_.begin, place))
+        Whole(fmt::format("[begin] nowhere sends the tool to {}", place));
       if (!dialect_.restart.empty() && !Has(dialect_.restart, place))
-        return Bad("[restart] nowhere sends the tool to " + place);
+        Whole(fmt::format("[restart] nowhere sends the tool to {}", place));
     }
-    PM_RETURN_IF_ERROR(CheckUnits());
+    if (const absl::Status units = CheckUnits(); !units.ok()) Add(0, units);
     for (const char* placeholder : {"{work_offset}", "{speed}", "{path}", "{tool}", "{coolant}", "{unit}"}) {
       // The unit of a Heidenhain program is that of its first line, wherever it is started.
       if (dialect_.syntax == Syntax::kKlartext && placeholder == std::string_view("{unit}")) continue;
       if (!dialect_.restart.empty() && Has(dialect_.begin, placeholder) &&
           !Has(dialect_.restart, placeholder))
-        return Bad(
+        Whole(
             fmt::format("[restart] has no {}, which [begin] has: the control may start there", placeholder));
     }
     if (!dialect_.follows_exactly) {
-      if (dialect_.exact_path.empty()) return Bad("[path] exact is missing, and it does not follow exactly");
-      if (!Has(dialect_.begin, "{path}"))
-        return Bad("[begin] nowhere has {path}, which the accuracy rests on");
+      if (dialect_.exact_path.empty()) Whole("[path] exact is missing, and it does not follow exactly");
+      if (!Has(dialect_.begin, "{path}")) Whole("[begin] nowhere has {path}, which the accuracy rests on");
     }
     const bool other_planes = dialect_.arcs.planes[ArcPlane::kZx] || dialect_.arcs.planes[ArcPlane::kYz];
     const bool any_plane = other_planes || dialect_.arcs.planes[ArcPlane::kXy];
-    if (dialect_.arcs.helices && !any_plane) return Bad("[arcs] helices = yes, and planes is missing");
+    if (dialect_.arcs.helices && !any_plane) Whole("[arcs] helices = yes, and planes is missing");
     if (dialect_.syntax == Syntax::kKlartext && (other_planes || dialect_.arcs.helices))
-      return Bad("[arcs] klartext programs have arcs in the plane G17 only, and no helices");
-    if (!seen_.contains("control.decimals_inch"))
-      dialect_.decimals[ProgramUnit::kInch] = dialect_.decimals[ProgramUnit::kMillimeter] + 1;
-    if (dialect_.title.empty()) dialect_.title = dialect_.name;
-    dialect_.text = text;
-    return std::move(dialect_);
+      Whole("[arcs] klartext programs have arcs in the plane G17 only, and no helices");
   }
 
- private:
+  // The modes in which [begin] and [restart] leave the control.
+  void CheckModes() {
+    for (const UnexpectedMode& mode : UnexpectedModes(dialect_, dialect_.begin))
+      faults_.push_back({begin_lines_[mode.index], mode.message});
+    for (const UnexpectedMode& mode : UnexpectedModes(dialect_, dialect_.restart))
+      faults_.push_back({restart_lines_[mode.index], mode.message});
+  }
+
   static bool Has(const std::vector<std::string>& lines, std::string_view placeholder) {
     for (const std::string& line : lines) {
       if (line.find(placeholder) != std::string::npos) return true;
@@ -347,12 +395,13 @@ class PostFileReader {
   absl::Status Section(std::string_view text) {
     for (const char* name : {"control", "path", "arcs", "coolant", "words", "begin", "restart", "end"}) {
       if (text == fmt::format("[{}]", name)) {
+        section_ = name;
         if (!seen_.insert({std::string(text), true}).second)
           return Bad(fmt::format("{} is given twice", text));
-        section_ = name;
         return absl::OkStatus();
       }
     }
+    section_ = kFaultySection;
     return Bad(
         fmt::format("{}: must be [control], [path], [arcs], [coolant], [words], [begin], [restart] or [end]",
                     Quoted(text)));
@@ -363,6 +412,8 @@ class PostFileReader {
     if (text.front() == '/')
       return Bad("a line with / may be skipped at the control, so it cannot be relied on");
     if (section_ == "restart" && text == kHeaderLine) return Bad("[restart] has no {header}");
+    if (section_ == "begin") begin_lines_.push_back(line_);
+    if (section_ == "restart") restart_lines_.push_back(line_);
     std::vector<std::string>& lines = section_ == "begin"     ? dialect_.begin
                                       : section_ == "restart" ? dialect_.restart
                                                               : dialect_.end;
@@ -383,25 +434,36 @@ class PostFileReader {
     return Bad(fmt::format("{}: {}", key, std::string(read.message())));
   }
 
+  static constexpr std::string_view kFaultySection = "?";  // its lines are passed over
+
   Dialect dialect_;
-  std::string section_;
+  std::string_view section_;
+  int line_ = 0;
+  std::vector<int> begin_lines_, restart_lines_;  // of the file, for each line of the program
   std::map<std::string, bool> seen_;
+  std::vector<PostFault> faults_;
 };
 
 }  // namespace
 
-absl::StatusOr<Dialect> ParseDialect(std::string_view text) {
-  if (text.size() > kLongestFile) return Bad(fmt::format("longer than {} characters", kLongestFile));
+ReadPost ReadPostFile(std::string_view text) {
+  if (text.size() > kLongestPostFile)
+    return {Dialect(), {{0, fmt::format("longer than {} characters", kLongestPostFile)}}};
   PostFileReader reader;
   int line = 0;
   for (std::size_t begin = 0; begin < text.size();) {
     const std::size_t end = std::min(text.find('\n', begin), text.size());
-    ++line;
-    const absl::Status read = reader.Line(text.substr(begin, end - begin));
-    if (!read.ok()) return Bad(fmt::format("line {}: {}", line, std::string(read.message())));
+    reader.Line(text.substr(begin, end - begin), ++line);
     begin = end + 1;
   }
   return reader.Take(text);
+}
+
+absl::StatusOr<Dialect> ParseDialect(std::string_view text) {
+  ReadPost post = ReadPostFile(text);
+  if (post.faults.empty()) return std::move(post.dialect);
+  const PostFault& first = post.faults.front();
+  return Bad(first.line > 0 ? fmt::format("line {}: {}", first.line, first.message) : first.message);
 }
 
 }  // namespace patchmill

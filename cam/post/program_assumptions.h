@@ -16,7 +16,9 @@ namespace patchmill {
 // request says so), REFERENCE_ASSUMED (the point of G28 and G30 is above everything), MACHINE_Z_ASSUMED (so
 // is a machine Z below the dialect's machine_top), TOOL_CHANGE_ASSUMED (it happens above everything),
 // TOOL_ASSUMED (the one before the first tool change), CYCLE_END_ASSUMED (G98), SPINDLE_REVERSED (a left-hand
-// cutter), CONTROL_DEVIATION_ASSUMED and WORD_EXPLAINED (what the user says of the control).
+// cutter), ROTARY_ASSUMED (rotary axes stand at 0), TOOL_NAME_ASSUMED (a tool with a name is that of the
+// set-up), WORD_ASSUMED (a word of the machine's builder), CONTROL_DEVIATION_ASSUMED and WORD_EXPLAINED (what
+// the user says of the control).
 std::vector<std::string> AssumptionCodes(const Diagnostics& findings);
 
 }  // namespace patchmill

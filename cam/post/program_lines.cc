@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "cam/post/siemens_block.h"
 #include "core/base/status.h"
 
 namespace patchmill {
@@ -12,7 +11,7 @@ absl::StatusOr<std::optional<BlockModes>> ProgramLines::Read(std::string_view li
     case Syntax::kRs274:
       return ReadGcode(line);
     case Syntax::kSiemens:
-      return ReadSiemensLine(line, dialect_);
+      return siemens_.Read(line);
     case Syntax::kKlartext:
       return klartext_.Read(line);
   }

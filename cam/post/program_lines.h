@@ -9,6 +9,7 @@
 #include "cam/post/dialect.h"
 #include "cam/post/gcode_modes.h"
 #include "cam/post/klartext_block.h"
+#include "cam/post/siemens_block.h"
 
 namespace patchmill {
 
@@ -18,7 +19,7 @@ std::string_view TakeLine(std::string_view& text);
 class ProgramLines {
  public:
   // Keeps a reference.
-  explicit ProgramLines(const Dialect& dialect) : dialect_(dialect) {}
+  explicit ProgramLines(const Dialect& dialect) : dialect_(dialect), siemens_(dialect) {}
 
   // The block of the next line; absent for a line that does nothing. INVALID_ARGUMENT (without the line
   // number) for what the dialect does not have.
@@ -30,6 +31,7 @@ class ProgramLines {
   absl::StatusOr<std::optional<BlockModes>> ReadGcode(std::string_view line);
 
   const Dialect& dialect_;
+  SiemensReader siemens_;
   KlartextReader klartext_;
   GcodeBlock block_;  // reused from line to line
   bool percent_opened_ = false, begun_ = false, numbered_ = false, ended_ = false;

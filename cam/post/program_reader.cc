@@ -42,7 +42,9 @@ class Interpreter {
   absl::Status SetPathMode(const BlockModes& block);
   double Smoothing() const;     // mm: by how much the control may leave the path now
   double BareBlending() const;  // mm: the same under a G64 without P
+  bool StopsExactly() const { return path_mode_ == PathMode::kExact && !merges_ && !coarse_stop_; }
   absl::Status SetTool(const BlockModes& block);
+  absl::Status SetToolName(const BlockModes& block);
   absl::Status SetOffsets(const BlockModes& block);
   absl::Status SetCompensation(const BlockModes& block);
   absl::Status CheckFeed() const;  // a feed move may begin
@@ -62,8 +64,11 @@ class Interpreter {
     Note("PLANE_ASSUMED", fmt::format("{}, and none of G17, G18 and G19 so far; taken as G17", motion));
   }
   void NoteAt(int line, const char* code, const std::string& message);
+  void NoteBlock(const BlockModes& block);
+  bool IsOfPost(const std::string& word) const;
   void SetFeed(const BlockModes& block);
   void UseOwnWord(const BlockModes& block);
+  bool IsIncremental(const BlockModes& block, char axis) const;
   // The target of the axis words. An axis whose place is unknown is taken to start where it is first sent.
   absl::StatusOr<Vec3> Target(const BlockModes& block);
   absl::Status TooMany() const {
@@ -91,11 +96,17 @@ class Interpreter {
   PathMode path_mode_ = PathMode::kNotStated;
   double blending_ = 0.0;               // mm, of G64
   std::optional<double> own_blending_;  // mm, by a word of the dialect's own
+  bool merges_ = false;                 // the control smooths the path by what no word limits
+  bool coarse_stop_ = false;            // exact stops go on before the axes have arrived
   bool unit_stated_ = false, distance_stated_ = false, plane_stated_ = false;
-  bool arc_stated_;                      // what I, J and K count from is known
-  int length_of_ = -1;                   // H of the last G43; -1 if it had none
-  int tool_ = -1, loaded_ = -1;          // T of the program and the tool in the spindle; -1 if not known yet
-  int work_offset_ = 0;                  // code; 0 if not stated yet
+  bool arc_stated_;              // what I, J and K count from is known
+  int length_of_ = -1;           // H of the last G43; -1 if it had none
+  int tool_ = -1, loaded_ = -1;  // T of the program and the tool in the spindle; -1 if not known yet
+  std::string tool_name_;        // of a tool without a number
+  int work_offset_ = 0;          // code; 0 if not stated yet
+  int without_offset_ = 0;       // line that ended the work offset below machine zero; 0 if none did
+  bool rotary_ = false;          // the rotary axes have been sent to zero
+  std::vector<std::string> without_effect_;
   int tool_length_ = 0;                  // code; 0 if not stated yet
   int feed_mode_ = 940;                  // code
   int feed_mode_line_ = 0;               // its line
@@ -134,6 +145,12 @@ absl::Status Interpreter::SetPathMode(const BlockModes& block) {
   path_mode_ = *block.path == 640 ? PathMode::kBlended : PathMode::kExact;
   if (path_mode_ == PathMode::kExact) return absl::OkStatus();
   blending_ = BareBlending();
+  // G64 and G641 to G645 replace what CYCLE832 has set.
+  if (dialect_.syntax == Syntax::kSiemens) own_blending_.reset();
+  if (block.blending) {
+    own_blending_ = unit_ * *block.blending;
+    return absl::OkStatus();
+  }
   if (dialect_.path_tolerance.substr(0, 3) != "G64") {
     if (block['P'] || block['Q']) return Bad("G64 has no P and no Q in this dialect");
   } else if (block['P'].value_or(0.0) != 0.0) {  // for LinuxCNC P0 means that there is no limit
@@ -150,7 +167,8 @@ double Interpreter::BareBlending() const {
 
 // A program that states nothing is judged as one with a bare G64, unless the path is assumed to be exact.
 double Interpreter::Smoothing() const {
-  if (dialect_.follows_exactly || path_mode_ == PathMode::kExact) return 0.0;
+  if (dialect_.follows_exactly || StopsExactly()) return 0.0;
+  if (merges_ || path_mode_ == PathMode::kExact) return BareBlending();
   if (own_blending_) return *own_blending_;
   if (path_mode_ == PathMode::kBlended) return blending_;
   return params_.assume_exact_path ? 0.0 : BareBlending();
@@ -161,6 +179,10 @@ absl::Status Interpreter::SetTool(const BlockModes& block) {
     if (!(*block['T'] <= 1e6) || *block['T'] != std::floor(*block['T'])) return Bad("T is not a tool number");
     tool_ = static_cast<int>(*block['T']);
   }
+  PM_RETURN_IF_ERROR(SetToolName(block));
+  if (block.tool_change && block['T'] && !tool_name_.empty())
+    return Bad(
+        fmt::format("T{:g} after tool \"{}\": post the program with T numbers", *block['T'], tool_name_));
   if (block.tool_change) {
     spindle_on_ = false;  // every RS274 control stops it for the change
     if (!above_) {
@@ -178,22 +200,45 @@ absl::Status Interpreter::SetTool(const BlockModes& block) {
   return absl::OkStatus();
 }
 
+// A tool that has a name in place of a number: the request cannot say which of its tools that is.
+absl::Status Interpreter::SetToolName(const BlockModes& block) {
+  const std::string& name = block.tool_name;
+  if (name.empty() || name == tool_name_) return absl::OkStatus();
+  if (params_.several_tools || !tool_name_.empty() || loaded_ >= 0) {
+    return Bad(fmt::format(
+        "tool \"{}\": of several tools each needs a number; post the program with T numbers", name));
+  }
+  tool_name_ = name;
+  Note("TOOL_NAME_ASSUMED", fmt::format("tool \"{}\" is taken to be the tool of this set-up", name));
+  return absl::OkStatus();
+}
+
 absl::Status Interpreter::SetOffsets(const BlockModes& block) {
   if (block.tool_length) {
     const int of =
         *block.tool_length == 430 && block['H'] ? static_cast<int>(std::min(*block['H'], 1e9)) : -1;
     const auto entry = [&](int h) { return h < 0 ? loaded_ : h; };  // G43 without H means the loaded tool
-    if (!above_ && (*block.tool_length != tool_length_ || entry(of) != entry(length_of_))) shifted_ = true;
+    const bool none = !dialect_.length_offset && *block.tool_length == 490;  // there is nothing to cancel
+    const bool same = *block.tool_length == tool_length_ && entry(of) == entry(length_of_);
+    if (!above_ && !none && !same) shifted_ = true;
     tool_length_ = *block.tool_length;
     length_of_ = of;
   }
   if (block.work_offset) {
     if (moved_below_ && *block.work_offset != (work_offset_ == 0 ? 540 : work_offset_)) {
-      return Bad(fmt::format("G{}: one work offset per program", *block.work_offset / 10));
+      return Bad(fmt::format("{}: one work offset per program", OffsetName(*block.work_offset)));
     }
+    without_offset_ = 0;
     work_offset_ = *block.work_offset;
     known_[0] = known_[0] && moved_below_;
     known_[1] = known_[1] && moved_below_;
+  }
+  if (block.no_offset) {
+    if (moved_below_) {
+      without_offset_ = line_;
+    } else {
+      work_offset_ = 0;
+    }
   }
   return absl::OkStatus();
 }
@@ -240,6 +285,8 @@ absl::Status Interpreter::SetModes(const BlockModes& block) {
     feed_mode_ = *block.feed_mode;
     feed_mode_line_ = line_;
   }
+  if (block.merges) merges_ = *block.merges;
+  if (block.coarse_stop) coarse_stop_ = *block.coarse_stop;
   if (block.word) UseOwnWord(block);
   if (block.distance) incremental_ = *block.distance == 910;
   if (block.arc_distance) arc_absolute_ = *block.arc_distance == 901;
@@ -298,6 +345,48 @@ void Interpreter::UseOwnWord(const BlockModes& block) {
   if (block.word->tolerance_letter == '\0') return;
   const auto& value = block[block.word->tolerance_letter];
   own_blending_ = value ? unit_ * *value : kInfinity;
+  // CYCLE832 sets the path mode and the compressor, or gives them back to the machine's own setting.
+  if (dialect_.syntax != Syntax::kSiemens) return;
+  path_mode_ = PathMode::kBlended;
+  merges_ = false;
+}
+
+// What a block says beside its motion, and what is assumed for it.
+void Interpreter::NoteBlock(const BlockModes& block) {
+  for (const BlockNote& note : block.notes) Note(note.code, note.message);
+  if (block.rotary && !rotary_) {
+    rotary_ = true;
+    if (!above_) Note("ROTARY_ASSUMED", "rotary axes go to 0; they are taken to stand there before, too");
+  }
+  if (block.without_effect.empty()) return;
+  constexpr std::size_t kMost = 12;
+  const auto known = [&](const std::string& text) {
+    return text.compare(0, text.rfind(" (line"), block.without_effect) == 0;
+  };
+  if (without_effect_.size() > kMost || IsOfPost(block.without_effect) ||
+      std::any_of(without_effect_.begin(), without_effect_.end(), known))
+    return;
+  without_effect_.push_back(without_effect_.size() == kMost
+                                ? "and others"
+                                : fmt::format("{} (line {})", block.without_effect, line_));
+}
+
+// Whether the line has the word, and not a longer one: G8, but not G80 and not G8.1.
+bool HasWord(const std::string& line, const std::string& word) {
+  for (std::size_t at = line.find(word); at != std::string::npos; at = line.find(word, at + 1)) {
+    const char next = at + word.size() < line.size() ? line[at + word.size()] : ' ';
+    if (next != '.' && !(next >= '0' && next <= '9')) return true;
+  }
+  return false;
+}
+
+// Whether the post of the dialect writes the word itself.
+bool Interpreter::IsOfPost(const std::string& word) const {
+  const auto has = [&](const std::vector<std::string>& lines) {
+    return std::any_of(lines.begin(), lines.end(),
+                       [&](const std::string& line) { return HasWord(line, word); });
+  };
+  return has(dialect_.begin) || has(dialect_.end) || has(dialect_.restart);
 }
 
 void Interpreter::NoteAt(int line, const char* code, const std::string& message) {
@@ -344,7 +433,7 @@ void Interpreter::NoteAssumptions(ProgramMove::Kind kind, bool below) {
          "no word for the path so far; taken as a G64 that states no limit, unless the path is assumed to be "
          "exact");
   }
-  if (path_mode_ != PathMode::kExact && params_.control_deviation && !own_blending_ &&
+  if (!StopsExactly() && params_.control_deviation && (!own_blending_ || merges_) &&
       Smoothing() == *params_.control_deviation) {
     Note("CONTROL_DEVIATION_ASSUMED",
          fmt::format("the control is taken to leave the path by at most {:.4g} mm: no word says so",
@@ -430,26 +519,39 @@ absl::Status Interpreter::ToMachine(const BlockModes& axes, ProgramMove::Kind ki
 // G28, G30: a rapid to the coordinates in the mode in force, then the axes that are named, or all, go to the
 // reference point.
 absl::Status Interpreter::Reference(const BlockModes& block) {
+  if (block.rotary && !HasAxis(block)) return absl::OkStatus();  // only rotary axes go there
   BlockModes axes = block;
   if (!HasAxis(block)) {
     for (const char axis : kAxis) axes.value[static_cast<std::size_t>(axis - 'A')] = 0.0;
   }
   const bool away = std::any_of(kAxis.begin(), kAxis.end(), [&](char axis) {
-    return block[axis] && (!incremental_ || *block[axis] != 0.0);
+    return block[axis] && (!IsIncremental(block, axis) || *block[axis] != 0.0);
   });
   if (away) {
     PM_ASSIGN_OR_RETURN(const Vec3 to, Target(block));
     NoteAssumptions(ProgramMove::Kind::kRapid, !above_ || block['Z']);
     PM_RETURN_IF_ERROR(Emit(ProgramMove::Kind::kRapid, to, above_ && !block['Z'], 0.0));
   }
-  const std::string word = fmt::format("G{}", *block.once / 10);
+  const std::string word =
+      dialect_.syntax == Syntax::kSiemens ? "G74 or G75" : fmt::format("G{}", *block.once / 10);
   const auto writes = [&](const std::string& line) { return line.find(word) != std::string::npos; };
-  if (axes['Z'] && std::none_of(dialect_.begin.begin(), dialect_.begin.end(), writes))
+  const bool numbered = block['P'].has_value();
+  if (axes['Z'] && (numbered || std::none_of(dialect_.begin.begin(), dialect_.begin.end(), writes)))
     Note("REFERENCE_ASSUMED", fmt::format("the reference point of {} is taken as above everything", word));
   return ToMachine(axes, ProgramMove::Kind::kRapid);
 }
 
+bool Interpreter::IsIncremental(const BlockModes& block, char axis) const {
+  const AxisMode mode = block.axis_mode[static_cast<std::size_t>(axis - 'X')];
+  return mode == AxisMode::kInForce ? incremental_ : mode == AxisMode::kIncremental;
+}
+
 absl::StatusOr<Vec3> Interpreter::Target(const BlockModes& block) {
+  if (without_offset_ > 0) {
+    return Bad(
+        fmt::format("motion after line {} has ended the work offset: the place of the part is not known",
+                    without_offset_));
+  }
   if (shifted_) {
     return Bad("motion after a change of tool or tool length offset below machine zero: Z is not known");
   }
@@ -460,7 +562,7 @@ absl::StatusOr<Vec3> Interpreter::Target(const BlockModes& block) {
     if (!word) continue;
     const auto i = static_cast<Eigen::Index>(k);
     const bool known = known_[k] && (k < 2 || !above_);
-    if (incremental_) {
+    if (IsIncremental(block, kAxis[k])) {
       if (!known) return Bad(fmt::format("{} is incremental from an unknown place", kAxis[k]));
       to[i] = at_[i] + *word * unit_;
     } else {
@@ -494,7 +596,9 @@ absl::Status Interpreter::Arc(const BlockModes& block) {
   arc.clockwise = motion_mode_ == 20;
   const bool inches = unit_ == kInch && dialect_.arc_radius_slack_in > 0.0;
   arc.radius_slack = inches ? kInch * dialect_.arc_radius_slack_in : dialect_.arc_radius_slack;
-  if (block['P'] && block.path != 640) {
+  if (block.turns) {
+    arc.turns = static_cast<int>(*block.turns);
+  } else if (block['P'] && block.path != 640) {
     if (!(*block['P'] >= 1.0 && *block['P'] <= 1e9) || *block['P'] != std::floor(*block['P']))
       return Bad(fmt::format("P{:g} of an arc; it must be a whole number of turns, 1 or more", *block['P']));
     arc.turns = static_cast<int>(*block['P']);
@@ -580,6 +684,7 @@ absl::Status Interpreter::Run(const BlockModes& block, int line) {
   PM_RETURN_IF_ERROR(CheckUse(block, motion_mode_, dialect_));
   PM_RETURN_IF_ERROR(SetModes(block));
   motion_.has_deletable_lines = motion_.has_deletable_lines || block.deletable;
+  NoteBlock(block);
   if (block.without_point != '\0') {
     Note("POINT_ASSUMED",
          fmt::format("{}{:g} has no decimal point: taken as {}, and a control that is set to count "
@@ -588,7 +693,9 @@ absl::Status Interpreter::Run(const BlockModes& block, int line) {
   }
   const bool arc = IsArc(motion_mode_), cycle = IsCycle(motion_mode_);
   const bool stated = (arc || cycle) && block.motion.has_value();
-  if (block.once == 530) {
+  if (block.still) {
+    // The coordinates are those of a word that moves nothing.
+  } else if (block.once == 530) {
     PM_RETURN_IF_ERROR(Home(block));
   } else if (IsReference(block)) {
     PM_RETURN_IF_ERROR(Reference(block));
@@ -604,6 +711,12 @@ absl::Status Interpreter::Run(const BlockModes& block, int line) {
 }
 
 ProgramMotion Interpreter::Take() {
+  if (!without_effect_.empty()) {
+    std::string list;
+    for (const std::string& word : without_effect_) list += list.empty() ? word : fmt::format(", {}", word);
+    motion_.assumptions.push_back(
+        MakeInfo("WORDS_WITHOUT_EFFECT", "words that neither move the tool nor change the path: " + list));
+  }
   motion_.tool_number = loaded_ >= 0 ? loaded_ : std::max(tool_, 0);
   motion_.ends_with_spindle_off = !spindle_on_;
   motion_.ends_with_coolant_off = !coolant_on_;

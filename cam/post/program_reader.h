@@ -33,12 +33,12 @@ struct ReaderParams {
 };
 
 // Reads G0-G3, G4, G17-G19, G20/G21, G28, G30, G40, G43/G49, G53, G54-G59, G61/G61.1/G64, G73, G80-G83,
-// G90/G91, G90.1/G91.1, G94, G98/G99, F, S, T, M0-M9, M30, comments, N, /, a program number and %, and the
-// words of the dialect. Lines of Siemens and of Heidenhain conversational programs are read into the same
-// groups (siemens_block.h, klartext_block.h). Positions are those of the program (the tip, after G43), in mm.
-// The words of a line take effect in LinuxCNC's order, whatever their order in the line: F counts in the unit
-// before the line (in the new one where the dialect says so); then come G20/G21; coordinates and G64 P count
-// in the new unit.
+// G90/G91, G90.1/G91.1, G94, G98/G99, F, S, T, M0-M9, M30, comments, N, /, the name of a program and %, the
+// words of the dialect, and those of its control (word_rules.h). Lines of Siemens and of Heidenhain
+// conversational programs are read into the same groups (siemens_block.h, klartext_block.h). Positions are
+// those of the program (the tip, after G43), in mm. The words of a line take effect in LinuxCNC's order,
+// whatever their order in the line: F counts in the unit before the line (in the new one where the dialect
+// says so); then come G20/G21; coordinates and G64 P count in the new unit.
 //
 // G28 and G30 go straight to their coordinates first, then to the reference point, which is taken as above
 // everything. An X or Y that goes to a place of the machine (G28, G53) is unknown from there on. Canned

@@ -8,6 +8,7 @@
 
 #include "clients/cli/call.h"
 #include "clients/cli/commands.h"
+#include "clients/cli/input_file.h"
 #include "clients/cli/job_options.h"
 #include "patchmill/v1/toolpath_service.grpc.pb.h"
 
@@ -17,6 +18,7 @@ namespace {
 struct PostsOptions {
   CommonOptions common;
   std::string name;
+  std::string check;  // a file
 };
 
 void PrintList(const v1::ListPostsResponse& response) {
@@ -34,14 +36,47 @@ void PrintList(const v1::ListPostsResponse& response) {
   }
 }
 
-absl::StatusOr<v1::ListPostsResponse> ListPosts(const CommonOptions& options, InterruptWatch& watch) {
+absl::StatusOr<v1::ListPostsResponse> ListPosts(const CommonOptions& options,
+                                                const v1::ListPostsRequest& request, InterruptWatch& watch) {
   return Call<v1::ToolpathService::Stub, v1::ListPostsRequest, v1::ListPostsResponse>(
-      options, watch, &v1::ToolpathService::Stub::ListPosts, {});
+      options, watch, &v1::ToolpathService::Stub::ListPosts, request);
+}
+
+void PrintCheck(const std::string& file, const v1::PostCheck& check) {
+  for (const v1::PostFault& fault : check.faults()) {
+    fmt::print("{}{}: {}\n", file, fault.line() > 0 ? fmt::format(":{}", fault.line()) : "", fault.message());
+  }
+  if (check.faults().empty()) fmt::print("{}: no faults; dialect {}\n", file, check.name());
+  if (!check.base().empty()) {
+    fmt::print("derived from {}: {} lines of its own, {} of {} missing\n", check.base(),
+               check.own_lines_size(), check.missing_lines_size(), check.base());
+  }
+  for (const v1::PostLine& line : check.own_lines()) fmt::print("  + {}: {}\n", line.line(), line.text());
+  for (const std::string& line : check.missing_lines()) fmt::print("  - {}\n", line);
+  if (check.left_to_control().empty()) return;
+  fmt::print("left to the control:\n");
+  for (const std::string& sentence : check.left_to_control()) fmt::print("  {}\n", sentence);
 }
 
 absl::Status Run(const PostsOptions& options, InterruptWatch& watch) {
-  absl::StatusOr<v1::ListPostsResponse> response = ListPosts(options.common, watch);
+  v1::ListPostsRequest request;
+  if (!options.check.empty()) {
+    absl::StatusOr<std::string> text = ReadWholeFile(options.check);
+    if (!text.ok()) return text.status();
+    for (char& c : *text) {
+      if (static_cast<unsigned char>(c) >= 0x80) c = '\x01';  // the server names the line
+    }
+    request.set_post_file(*std::move(text));
+  }
+  absl::StatusOr<v1::ListPostsResponse> response = ListPosts(options.common, request, watch);
   if (!response.ok()) return response.status();
+  if (!options.check.empty()) {
+    PrintCheck(options.check, response->check());
+    const int faults = response->check().faults_size();
+    if (faults == 0) return absl::OkStatus();
+    return absl::InvalidArgumentError(
+        fmt::format("{}: {} fault{}", options.check, faults, faults == 1 ? "" : "s"));
+  }
   if (options.name.empty()) {
     PrintList(*response);
     return absl::OkStatus();
@@ -60,7 +95,7 @@ absl::Status Run(const PostsOptions& options, InterruptWatch& watch) {
 }  // namespace
 
 absl::StatusOr<std::vector<std::string>> PostNames(const CommonOptions& options, InterruptWatch& watch) {
-  absl::StatusOr<v1::ListPostsResponse> response = ListPosts(options, watch);
+  absl::StatusOr<v1::ListPostsResponse> response = ListPosts(options, {}, watch);
   if (!response.ok()) return response.status();
   std::vector<std::string> names;
   for (const v1::PostInfo& post : response->posts()) names.push_back(post.name());
@@ -69,7 +104,14 @@ absl::StatusOr<std::vector<std::string>> PostNames(const CommonOptions& options,
 
 Command AddPosts(CLI::App& app) {
   auto options = std::make_shared<PostsOptions>();
-  app.add_option("NAME", options->name, "print the post file of this dialect: a start for one of your own");
+  CLI::Option* const name = app.add_option(
+      "NAME", options->name, "print the post file of this dialect: a start for one of your own");
+  app.add_option(
+         "--check", options->check,
+         "say every fault of a post file with its line, what it derives from, and what it leaves to the "
+         "control; exit 1 with faults")
+      ->type_name("FILE")
+      ->excludes(name);
   AddCommonOptions(app, options->common);
   return [options](InterruptWatch& watch) { return Run(*options, watch); };
 }

@@ -44,6 +44,7 @@ ALLOWED["cam/link"] = ALL_CORE | set(cam + region + path)
 for name in rooms("cam", JUDGES):
     ALLOWED[name] = ALL_CORE | {"cam/tool", "cam/limits", "cam/toolpath"}
 ALLOWED["cam/picture"].add("core/fairing")
+ALLOWED["cam/post/words"] = {"cam/post"}  # tables of words, which cam/post declares
 ALLOWED["cam/plan"] = ALLOWED["cam/link"] | {"cam/link"} | set(rooms("cam", JUDGES))
 
 ALLOWED["proto/json"] = set()

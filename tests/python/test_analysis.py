@@ -92,6 +92,15 @@ class Models(unittest.TestCase):
         middle = CLIENT.evaluate(built.model, [0], [[0.5, 0.5]]).points_mm[0]
         self.assertAlmostEqual(middle[2], 0.5 * (heights[1] + 4), places=6)
 
+    def test_a_post_file_is_checked(self):
+        shop = next(p for p in CLIENT.posts() if p.name == "fanuc").post_file.replace("name = fanuc", "name = shop")
+        good = CLIENT.check_post(shop)
+        self.assertEqual((good.name, good.base, list(good.faults)), ("shop", "fanuc", []))
+        self.assertEqual([line.text for line in good.own_lines], ["name = shop"])
+        bad = CLIENT.check_post(shop.replace("T{tool} M6", "T{tol} M6"))
+        self.assertEqual(len(bad.faults), 1)
+        self.assertIn("{tol} is not a placeholder", bad.faults[0].message)
+
     def test_posts(self):
         names = [p.name for p in CLIENT.posts()]
         self.assertIn("heidenhain", names)

@@ -554,8 +554,9 @@ TEST(OwnPostFile, FaultsOfArcsHaveTheirLine) {
 // A control whose I, J and K always count from the start has no word for it; the others must say so.
 TEST(DialectReader, CentresCountFromTheStartWhereTheControlSaysSo) {
   const std::string text = "G17 G21 G90 G94 G61 G43 H1\nG0 X0 Y0 Z5\nG2 X2 Y0 I1 J0 F100\n";
-  const auto assumed = [&](const char* name) {
-    const auto motion = ReadProgram(text, {.dialect = *FindDialect(name)});
+  const std::string siemens = "G17 G710 G90 G94 G60 D1\nG0 X0 Y0 Z5\nG2 X2 Y0 I1 J0 F100\n";
+  const auto assumed = [&](const std::string& name) {
+    const auto motion = ReadProgram(name == "siemens" ? siemens : text, {.dialect = *FindDialect(name)});
     EXPECT_TRUE(motion.ok()) << motion.status();
     return std::any_of(motion->assumptions.begin(), motion->assumptions.end(),
                        [](const Diagnostic& d) { return d.code == "ARC_MODE_ASSUMED"; });

@@ -68,14 +68,14 @@ TEST(Klartext, RefusesWithTheLine) {
   const std::string start = "0 BEGIN PGM A MM\n1 TOOL CALL 1 Z S1000\n2 L X+0 Y+0 R0 FMAX M3\n";
   for (const auto& [line, word] :
        std::vector<std::pair<std::string, std::string>>{{"L X+5 RL F100", "radius compensation"},
-                                                        {"L IX+5 F100", "IX+5 is not supported"},
+                                                        {"L IX+Q5 F100", "Q parameters"},
                                                         {"L X+Q5 F100", "Q parameters"},
                                                         {"LP PR+5 PA+30", "LP is not supported"},
                                                         {"C X+5 Y+5 DR+", "without CC"},
                                                         {"CR X+5 Y+5 R+5", "DR+ or DR-"},
                                                         {"CALL LBL 1", "CALL is not supported"},
                                                         {"FN 0: Q1 = 5", "FN is not supported"},
-                                                        {"CYCL DEF 19.0 WORKING PLANE", "CYCL DEF 19.0"},
+                                                        {"CYCL DEF 19.1 A+10", "CYCL DEF 19.1"},
                                                         {"PLANE SPATIAL SPA+10", "PLANE is not supported"},
                                                         {"L X+1 X+2 F100", "X is given twice"},
                                                         {"L X+1 F100 FMAX", "F and FMAX"},
@@ -152,8 +152,8 @@ TEST(Siemens, TolerancesAndRefusals) {
   EXPECT_EQ(tolerance("G64\nCYCLE832(0.02,0,1)"), kInfinity);
   EXPECT_EQ(tolerance("G64\nCYCLE832()"), kInfinity);
   EXPECT_EQ(tolerance("CYCLE832(0.02,1,1)\nG60"), 0.0);
-  for (const char* line : {"R1=5", "X=R1", "CYCLE800()", "TRANS X5", "G1 X5 F=R2", "D2", "CYCLE832(0.1",
-                           "REPEAT A B", "IF R1==5 GOTOF ENDE", "T=\"BALL\""}) {
+  for (const char* line : {"R1=5", "X=R1", "CYCLE800(0,\"\",0,57,0,0,0,30,0,0)", "TRANS X5", "G1 X5 F=R2",
+                           "D2", "CYCLE832(0.1", "REPEAT A B", "IF R1==5 GOTOF ENDE", "T=\"BALL\""}) {
     const auto motion = Read(start + line + "\n", "siemens");
     EXPECT_FALSE(motion.ok()) << line;
     EXPECT_THAT(std::string(motion.status().message()), HasSubstr("line 8: "));

@@ -11,8 +11,8 @@ from ._call import RPCS, Call, Canceller, Inline, One, ProgressCallback
 from ._message import from_message, set_fields
 from .errors import IncompleteAnswerError
 from .meshes import mesh_of
-from .messages import Accepted, ArcMove, ListPostsResponse, Operation, Outcome, Output, PathChunk, Post, PostInfo, RegionMap
-from .messages import RegionOverride, Report, Selection, Setup, Strategy, Tool
+from .messages import Accepted, ArcMove, ListPostsResponse, Operation, Outcome, Output, PathChunk, Post, PostCheck, PostInfo
+from .messages import RegionMap, RegionOverride, Report, Selection, Setup, Strategy, Tool
 from .models import ModelLike, Model, model_of, set_name, set_source
 from .paths import path_of
 from .results import MillResult, VerifyResult
@@ -227,3 +227,16 @@ def posts(*, timeout_s: float | None = None) -> Call[Sequence[PostInfo]]:
     """The dialects in which programs are written and read."""
     return Call(RPCS["ListPosts"], toolpath_service_pb2.ListPostsRequest(),
                 lambda: One(lambda answer: from_message(ListPostsResponse, answer).posts), timeout_s=timeout_s)
+
+
+def check_post(post_file: str, *, timeout_s: float | None = None) -> Call[PostCheck]:
+    """What is to say of the text of a post file: its faults, what it derives from, what it leaves to the control."""
+    return Call(RPCS["ListPosts"], toolpath_service_pb2.ListPostsRequest(post_file=post_file),
+                lambda: One(_check_of), timeout_s=timeout_s)
+
+
+def _check_of(answer: toolpath_service_pb2.ListPostsResponse) -> PostCheck:
+    check = from_message(ListPostsResponse, answer).check
+    if check is None:
+        raise IncompleteAnswerError("The server does not check post files; it is older than this package.")
+    return check
