@@ -100,9 +100,10 @@ absl::StatusOr<std::vector<HermiteCurve>> SplineThrough(const std::vector<Vec3>&
   return Splined(points, chord, closed, ends);
 }
 
-std::vector<HermiteCurve> SplineOver(const std::vector<Vec3>& points, const std::vector<double>& spans) {
+std::vector<HermiteCurve> SplineOver(const std::vector<Vec3>& points, const std::vector<double>& spans,
+                                     const SplineEnds& ends) {
   PM_CHECK(points.size() >= 2 && spans.size() + 1 == points.size());
-  return Splined(points, spans, false, {});
+  return Splined(points, spans, false, ends);
 }
 
 }  // namespace patchmill
