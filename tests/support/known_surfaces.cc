@@ -73,16 +73,6 @@ const JoinedEdge& EdgeBetween(const JoinedNetwork& joined, int a, int b) {
   return *at;
 }
 
-// Mean first and second derivative of a face across one of its sides.
-CrossControl MeanOf(const CurveNetwork& network, const JoinedNetwork& joined, const FaceSide& s) {
-  const auto& loop = network.faces[At(s.face)].vertices;
-  const int a = loop[At(s.side)], b = loop[At((s.side + 1) % 4)];
-  const int before = loop[At((s.side + 3) % 4)], after = loop[At((s.side + 2) % 4)];
-  const CurveJet from = Leaving(EdgeBetween(joined, a, before), a),
-                 to = Leaving(EdgeBetween(joined, b, after), b);
-  return {a, b, s.face, 0.5 * (from.d + to.d), 0.5 * (from.dd + to.dd)};
-}
-
 Vec3 Across(const Vec3& first, const Vec3& second) {
   return (second - first * (first.dot(second) / first.squaredNorm())) / first.squaredNorm();
 }
@@ -237,8 +227,23 @@ KnownNetwork KnownStar(std::string name, int sectors) {
   return known;
 }
 
+KnownSurface WithoutHiddenPart(const KnownSurface& bicubic) {
+  // The coefficient of u^3 v^3, by third differences in both directions.
+  Vec3 coefficient = Vec3::Zero();
+  for (int i = 0; i < 4; ++i) {
+    for (int j = 0; j < 4; ++j) {
+      const double sign = (i + j) % 2 == 0 ? 1.0 : -1.0;
+      coefficient += sign * Binomial(3, i) * Binomial(3, j) * bicubic(i / 3.0, j / 3.0);
+    }
+  }
+  coefficient *= std::pow(27.0 / 6.0, 2);
+  return [=](double u, double v) { return Vec3(bicubic(u, v) - HiddenPart(u, v) * coefficient); };
+}
+
+double HiddenPart(double u, double v) { return u * (u - 0.5) * (u - 1.0) * v * (v - 0.5) * (v - 1.0); }
+
 KnownNetwork KnownBicubic() {
-  return KnownGrid("bicubic, 2 x 2", RandomBicubic(54, 4.0), {0, 0.5, 1}, {0, 0.5, 1});
+  return KnownGrid("bicubic, 2 x 2", WithoutHiddenPart(RandomBicubic(46, 3.5)), {0, 0.5, 1}, {0, 0.5, 1});
 }
 
 std::vector<KnownNetwork> KnownSurfaces() {
@@ -305,6 +310,15 @@ std::vector<KnownNetwork> KnownSurfaces() {
   return list;
 }
 
+CrossControl MeanControl(const CurveNetwork& network, const JoinedNetwork& joined, const FaceSide& s) {
+  const auto& loop = network.faces[At(s.face)].vertices;
+  const int a = loop[At(s.side)], b = loop[At((s.side + 1) % 4)];
+  const int before = loop[At((s.side + 3) % 4)], after = loop[At((s.side + 2) % 4)];
+  const CurveJet from = Leaving(EdgeBetween(joined, a, before), a),
+                 to = Leaving(EdgeBetween(joined, b, after), b);
+  return {a, b, s.face, 0.5 * (from.d + to.d), 0.5 * (from.dd + to.dd)};
+}
+
 CurveNetwork WithMeans(const KnownNetwork& known) {
   const JoinedNetwork joined = JoinNetwork(known.network);
   CurveNetwork network = known.network;
@@ -312,7 +326,7 @@ CurveNetwork WithMeans(const KnownNetwork& known) {
     const auto& sides = edge.topology.faces;
     if (sides.size() == 2 && !edge.equal_curvature) continue;  // it takes no control
     std::vector<CrossControl> means;
-    for (const FaceSide& s : sides) means.push_back(MeanOf(known.network, joined, s));
+    for (const FaceSide& s : sides) means.push_back(MeanControl(known.network, joined, s));
     if (means.size() == 2) Agree(means[0], means[1]);
     network.controls.insert(network.controls.end(), means.begin(), means.end());
   }
