@@ -207,13 +207,13 @@ absl::StatusOr<LoadedModel> LoadMessage(const v1::PatchModel& model, const std::
 }
 
 absl::StatusOr<LoadedModel> LoadText(const v1::ModelFile& file, std::string_view at) {
-  absl::StatusOr<PatchModel> model = ReadModelText(file.format(), file.content());
+  LoadedModel loaded;
+  absl::StatusOr<PatchModel> model = ReadModelText(file.format(), file.content(), &loaded.remarks);
   if (!model.ok()) {
     if (model.status().code() != absl::StatusCode::kInvalidArgument) return model.status();
     return ModelUnreadableError(fmt::format("model file: {}", std::string(model.status().message())),
                                 CodeOf(model.status()));
   }
-  LoadedModel loaded;
   loaded.path = At(at, "content");
   loaded.model = *std::move(model);
   if (file.length_unit() == v1::LENGTH_UNIT_UNSPECIFIED) {

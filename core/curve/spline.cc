@@ -100,9 +100,11 @@ absl::StatusOr<std::vector<HermiteCurve>> SplineThrough(const std::vector<Vec3>&
   return Splined(points, chord, closed, ends);
 }
 
-std::vector<HermiteCurve> SplineOver(const std::vector<Vec3>& points, const std::vector<double>& spans) {
-  PM_CHECK(points.size() >= 2 && spans.size() + 1 == points.size());
-  return Splined(points, spans, false, {});
+std::vector<HermiteCurve> SplineOver(const std::vector<Vec3>& points, const std::vector<double>& spans,
+                                     const SplineEnds& ends) {
+  const bool closed = spans.size() == points.size();
+  PM_CHECK(points.size() >= (closed ? 3 : 2) && (closed || spans.size() + 1 == points.size()));
+  return Splined(points, spans, closed, ends);
 }
 
 }  // namespace patchmill

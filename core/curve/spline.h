@@ -23,8 +23,10 @@ struct SplineEnds {
 absl::StatusOr<std::vector<HermiteCurve>> SplineThrough(const std::vector<Vec3>& points, bool closed,
                                                         const SplineEnds& ends = {});
 
-// The natural open spline in a given parameter. spans[i] > 0 is the length of the span from point i to the
-// next. Needs two points or more.
-std::vector<HermiteCurve> SplineOver(const std::vector<Vec3>& points, const std::vector<double>& spans);
+// The spline in a given parameter. spans[i] > 0 is the length of the span from point i to the next. With as
+// many spans as points it is closed. The derivatives at the ends are per unit of this parameter. Needs two
+// points or more (closed: three).
+std::vector<HermiteCurve> SplineOver(const std::vector<Vec3>& points, const std::vector<double>& spans,
+                                     const SplineEnds& ends = {});
 
 }  // namespace patchmill

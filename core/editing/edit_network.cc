@@ -8,8 +8,8 @@
 
 #include "core/base/index.h"
 #include "core/base/status.h"
-#include "core/curve/spline.h"
 #include "core/editing/control_store.h"
+#include "core/editing/guide_curve.h"
 #include "core/editing/section_points.h"
 #include "core/joining/join_network.h"
 
@@ -112,14 +112,11 @@ class Editor {
       return Error(at + ".edges", fmt::format("are {}; must be at least {}", count, least));
     }
     PM_RETURN_IF_ERROR(Join(at));
-    SplineEnds ends;
     for (const bool last : {false, true}) {
       const std::optional<Vec3>& given = last ? edit.end : edit.start;
-      if (!given) continue;
-      if (!given->allFinite() || !(given->norm() > 0.0)) {
+      if (given && (!given->allFinite() || !(given->norm() > 0.0))) {
         return Error(at + (last ? ".end" : ".start"), "has no direction; must be finite and not zero");
       }
-      (last ? ends.end : ends.start) = given->normalized();
     }
     std::map<std::pair<int, int>, const JoinedEdge*> by_ends;
     for (const JoinedEdge& e : joined_->edges) {
@@ -148,14 +145,22 @@ class Editor {
       }
       faces.push_back(*face);
     }
-    const auto spline = SplineThrough(middles, edit.closed, ends);
-    if (!spline.ok()) return Error(at + ".edges", std::string(spline.status().message()));
+    std::vector<GuideSpan> row_spans;
     for (std::size_t k = 0; k < spans; ++k) {
       const auto& [a, b] = edit.edges[k];
       const auto& [c, d] = edit.edges[(k + 1) % count];
-      const CurveJet from = Evaluate((*spline)[k], 0.0), to = Evaluate((*spline)[k], 1.0);
-      controls_.Put({a, b, faces[k], from.d, from.dd});
-      controls_.Put({c, d, faces[k], Vec3(-to.d), to.dd});
+      PM_ASSIGN_OR_RETURN(const MiddleCross from, CrossAt({a, b, faces[k]}, at));
+      PM_ASSIGN_OR_RETURN(const MiddleCross to, CrossAt({c, d, faces[k]}, at));
+      row_spans.push_back({from.first, to.first});
+    }
+    const auto guide = GuideThrough(middles, row_spans, {edit.start, edit.end});
+    if (!guide.ok()) return Error(at + ".edges", std::string(guide.status().message()));
+    for (std::size_t k = 0; k < spans; ++k) {
+      const auto& [a, b] = edit.edges[k];
+      const auto& [c, d] = edit.edges[(k + 1) % count];
+      const GuideSection& section = (*guide)[k];
+      controls_.Put({a, b, faces[k], section.from.d, section.from.dd});
+      controls_.Put({c, d, faces[k], section.to.d, section.to.dd});
     }
     if (!edit.closed) {  // the faces beyond the ends of the row follow
       controls_.DropAcross({edit.edges[0][0], edit.edges[0][1], faces.front(), {}, {}});

@@ -54,13 +54,13 @@ struct CurvatureEdit {
   double curvature = 0.0;
 };
 
-// Corrects a row of faces at once [editing, section 5]. A cubic spline in the chord parameter runs through
-// the middles of the edges between the faces. It gives all their control vectors across the row. Each edge
+// Corrects a row of faces at once [editing, section 5]. A cubic spline runs through the middles of the edges
+// between the faces. It gives all their control vectors across the row. Each edge
 // and the next one must be opposite sides of one G2-Gregory face; if closed, so must the last and the first.
 struct GuideEdit {
   std::vector<std::array<int, 2>> edges;  // each by its two vertices; at least 2, closed: at least 3
   bool closed = false;
-  std::optional<Vec3> start, end;  // directions at the ends, any length but 0; natural ends where not given
+  std::optional<Vec3> start, end;  // directions at the ends, any length but 0; else the surface's own
 };
 
 using NetworkEdit =

@@ -1,11 +1,11 @@
 #include "core/io/curve_points.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include <fmt/format.h>
 
 #include "core/base/status.h"
+#include "core/io/lednicer.h"
 #include "core/io/text_scanner.h"
 
 namespace patchmill {
@@ -43,15 +43,6 @@ absl::Status Fail(int line, std::string_view reason) {
   return absl::InvalidArgumentError(fmt::format("line {}: {}", line, reason));
 }
 
-// Lednicer's form of .dat starts with the counts of points of the upper and the lower side.
-bool LooksLikeCounts(const CurvePoints& curve) {
-  if (!curve.planar || curve.points.size() < 3) return false;
-  const Vec3& first = curve.points.front();
-  return first.x() >= 2 && first.y() >= 2 && first.x() == std::floor(first.x()) &&
-         first.y() == std::floor(first.y()) &&
-         first.x() + first.y() == static_cast<double>(curve.points.size() - 1);
-}
-
 }  // namespace
 
 absl::StatusOr<CurvePoints> ReadCurvePoints(std::string_view format, std::string_view text) {
@@ -62,13 +53,14 @@ absl::StatusOr<CurvePoints> ReadCurvePoints(std::string_view format, std::string
   if (text.substr(0, 3) == "\xef\xbb\xbf") text.remove_prefix(3);
   CurvePoints curve;
   int number = 0, first_line = 0;
-  bool title_possible = true;
+  bool title_possible = true, empty_line_after_first = false;
   std::size_t columns = 0;
   while (!text.empty()) {
     ++number;
     const std::size_t end = text.find('\n');
     const std::string_view line = Trimmed(text.substr(0, end));
     text = end == std::string_view::npos ? std::string_view() : text.substr(end + 1);
+    if (line.empty() && curve.points.size() == 1) empty_line_after_first = true;
     if (line.empty() || line.front() == '#') continue;
     const std::vector<std::string_view> fields = Fields(line, format == "csv");
     const bool can_be_point = fields.size() == 2 || fields.size() == 3;
@@ -97,10 +89,11 @@ absl::StatusOr<CurvePoints> ReadCurvePoints(std::string_view format, std::string
   }
   if (curve.points.empty()) return Fail(std::max(number, 1), "the text holds no point");
   curve.planar = columns == 2;
-  if (LooksLikeCounts(curve)) {
-    return Fail(first_line,
-                "these look like the counts of Lednicer's form; list the points in one run instead");
-  }
+  const auto counts = curve.planar ? CountsOf(curve.points, empty_line_after_first) : std::nullopt;
+  if (!counts) return curve;
+  absl::StatusOr<std::vector<Vec3>> run = JoinSides(*counts, {curve.points.begin() + 1, curve.points.end()});
+  if (!run.ok()) return Fail(first_line, std::string(run.status().message()));
+  curve.points = *std::move(run);
   return curve;
 }
 

@@ -22,10 +22,10 @@ struct CurvePoints {
 
 // `format` is the file's ending without the point: "csv" (commas between the numbers) or "dat" (blanks or
 // tabs). Each line holds one point of two or three numbers, the same count on all lines. Numbers are as
-// TextScanner reads them. The first line may be a title instead: it does not start with a number, or does not
-// have two or three words. Empty lines and lines that start with '#' are skipped. The counts of Lednicer's
-// form of .dat are refused, so that they are not taken for a point. Errors: INVALID_ARGUMENT "line 12:
-// reason", or a list of the known formats.
+// TextScanner reads them. The first line may be a title instead: it does not start with a number, or does
+// not have two or three words. Empty lines and lines that start with '#' are skipped. Points in Lednicer's
+// form, which starts with two counts, become one run (lednicer.h); counts that do not fit the points are
+// refused. Errors: INVALID_ARGUMENT "line 12: reason", or a list of the known formats.
 absl::StatusOr<CurvePoints> ReadCurvePoints(std::string_view format, std::string_view text);
 
 }  // namespace patchmill

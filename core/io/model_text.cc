@@ -10,9 +10,10 @@
 
 namespace patchmill {
 
-absl::StatusOr<PatchModel> ReadModelText(std::string_view format, std::string_view text) {
+absl::StatusOr<PatchModel> ReadModelText(std::string_view format, std::string_view text,
+                                         Diagnostics* remarks) {
   if (format == "bpt") return ReadBpt(text);
-  if (format == "bv") return ReadBv(text);
+  if (format == "bv") return ReadBv(text, remarks);
   if (format == "bez") return ReadBez(text);
   if (format == "patches") return ReadPatches(text);
   return absl::InvalidArgumentError(fmt::format(

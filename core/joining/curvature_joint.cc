@@ -12,6 +12,7 @@ using Kind = CurvatureFault::Kind;
 ControlVectors VectorsOf(const CrossEnd& end) { return {kFirst * end.d, kSecond * end.dd}; }
 
 ControlVectors Mean(const CrossSide& side) {
+  if (side.fair) return VectorsOf(*side.fair);
   return {0.5 * kFirst * (side.start.d + side.end.d), 0.5 * kSecond * (side.start.dd + side.end.dd)};
 }
 
@@ -50,6 +51,12 @@ ControlVectors WithBend(const ControlVectors& vectors, const Vec3& bend) {
 }
 
 }  // namespace
+
+std::optional<CurvatureFault> CrossingFault(const CrossEnd& a, const CrossEnd& b, bool at_end) {
+  const auto crossing = CrossingAt(a, b, at_end);
+  const auto* fault = std::get_if<CurvatureFault>(&crossing);
+  return fault != nullptr ? std::optional(*fault) : std::nullopt;
+}
 
 std::variant<std::array<CrossRows, 2>, CurvatureFault> JoinCurvature(const CrossSide& a, const CrossSide& b) {
   StripPlace ends[2];

@@ -16,12 +16,13 @@ struct CrossEnd {
   Vec3 d = Vec3::Zero(), dd = Vec3::Zero();
 };
 
-// One side of an edge. `first`, `second`: wished derivatives of the surface across the edge into the face, at
-// the edge's middle. By default they are the means of the two ends [joining, section 8], turned to a
-// direction that both sides can share.
+// One side of an edge. `first`, `second`: wished derivatives of the surface across the edge into the face,
+// at the edge's middle. By default they are those of `fair` (fair_middles.h), without it the means of the
+// two ends [joining, section 8], turned to a direction that both sides can share.
 struct CrossSide {
   CrossEnd start, end;
   std::optional<Vec3> first, second;
+  std::optional<CrossEnd> fair = {};
 };
 
 struct CurvatureFault {
@@ -39,6 +40,10 @@ struct CurvatureFault {
 
 // Crossing curves count as one up to this misfit at an end, for both kinds of amount.
 inline constexpr double kMaxCurveMisfit = 1e-9;
+
+// Why the curves of a and b that cross the edge at one of its ends do not continue each other. nullopt if
+// they do.
+std::optional<CurvatureFault> CrossingFault(const CrossEnd& a, const CrossEnd& b, bool at_end);
 
 // Both sides joined to one strip (basis_strip.h): equal tangent planes and normal curvatures all along.
 std::variant<std::array<CrossRows, 2>, CurvatureFault> JoinCurvature(const CrossSide& a, const CrossSide& b);

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/base/index.h"
+#include "core/joining/fair_middles.h"
 
 namespace patchmill {
 namespace {
@@ -50,6 +51,8 @@ class RowMaker {
     }
   }
 
+  void Estimate() { fair_ = EstimateMiddles({network_, table_, edges_}); }
+
   void Fill(JoinedEdge& edge) {
     const auto& sides = edge.topology.faces;
     const bool any = std::ranges::any_of(sides, [&](const FaceSide& s) { return Wanted(s); });
@@ -57,16 +60,17 @@ class RowMaker {
     edge.rows.resize(sides.size());
     if (edge.kind == EdgeKind::kLeading || edge.kind == EdgeKind::kFollowing) {
       TangentPlaneOnly(edge, "one face has a part of it only");
-      edge.rows[0] = RowsWithTangent(SpanOf(edge.tangents[0], 0), SideOf(edge, sides[0]));
+      edge.rows[0] = RowsWithTangent(SpanOf(edge.tangents[0], 0), SideOf(edge, sides[0], false));
       return;
     }
     if (edge.kind != EdgeKind::kSmooth) {
       for (std::size_t k = 0; k < sides.size(); ++k) {
         if (!Wanted(sides[k])) continue;
-        const auto rows = RowsAlone(SideOf(edge, sides[k]));
+        auto rows = RowsAlone(SideOf(edge, sides[k], true));
+        if (Folds(rows)) rows = RowsAlone(SideOf(edge, sides[k], false));
         if (const auto* fault = std::get_if<CurvatureFault>(&rows)) {
           Refuse(edge, *fault);
-          edge.rows[k] = RowsWithTangent(SpanOf(edge.tangents[k], 0), SideOf(edge, sides[k]));
+          edge.rows[k] = RowsWithTangent(SpanOf(edge.tangents[k], 0), SideOf(edge, sides[k], false));
         } else {
           edge.rows[k] = std::get<CrossRows>(rows);
         }
@@ -74,7 +78,8 @@ class RowMaker {
       return;
     }
     if (Wanted(sides[0]) && Wanted(sides[1])) {
-      const auto joint = JoinCurvature(SideOf(edge, sides[0]), SideOf(edge, sides[1]));
+      auto joint = JoinCurvature(SideOf(edge, sides[0], true), SideOf(edge, sides[1], true));
+      if (Folds(joint)) joint = JoinCurvature(SideOf(edge, sides[0], false), SideOf(edge, sides[1], false));
       if (const auto* both = std::get_if<std::array<CrossRows, 2>>(&joint)) {
         edge.rows.assign(both->begin(), both->end());
         edge.equal_curvature = true;
@@ -87,7 +92,7 @@ class RowMaker {
     }
     for (std::size_t k = 0; k < sides.size(); ++k) {
       if (Wanted(sides[k]))
-        edge.rows[k] = RowsWithTangent(SpanOf(edge.tangents[k], 0), SideOf(edge, sides[k]));
+        edge.rows[k] = RowsWithTangent(SpanOf(edge.tangents[k], 0), SideOf(edge, sides[k], false));
     }
   }
 
@@ -123,8 +128,17 @@ class RowMaker {
     return {table_.Forward(other, network_) == first ? Vec3(-jet.d) : jet.d, jet.dd};
   }
 
-  CrossSide SideOf(const JoinedEdge& edge, const FaceSide& s) const {
-    CrossSide side{CrossingAt(s, true), CrossingAt(s, false), {}, {}};
+  // Where the estimated middle would fold a patch, the mean of the ends may still serve.
+  template <class Rows>
+  static bool Folds(const std::variant<Rows, CurvatureFault>& rows) {
+    const auto* fault = std::get_if<CurvatureFault>(&rows);
+    return fault != nullptr && fault->kind == CurvatureFault::Kind::kTurn;
+  }
+
+  CrossSide SideOf(const JoinedEdge& edge, const FaceSide& s, bool fair) const {
+    CrossSide side{CrossingAt(s, true), CrossingAt(s, false), {}, {}, {}};
+    const FaceSide& first = edge.topology.faces[0];
+    if (fair) side.fair = fair_[At(IndexOf(edge))][s.face == first.face && s.side == first.side ? 0 : 1];
     if (const auto control = controls_.find({IndexOf(edge), s.face}); control != controls_.end()) {
       side.first = network_.controls[At(control->second)].first;
       side.second = network_.controls[At(control->second)].second;
@@ -166,6 +180,7 @@ class RowMaker {
   const EdgeTable& table_;
   const NetworkWriter& findings_;
   std::vector<JoinedEdge>& edges_;
+  FairMiddles fair_;
   std::map<std::pair<int, int>, int> controls_;  // key: edge and face
 };
 
@@ -176,6 +191,7 @@ void AddCurvatureRows(const CurveNetwork& network, const EdgeTable& table, const
   RowMaker maker(network, table, findings, edges);
   maker.ReadControls();
   if (findings.ErrorWritten()) return;
+  maker.Estimate();
   for (JoinedEdge& edge : edges) maker.Fill(edge);
 }
 

@@ -4,6 +4,8 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view text(reinterpret_cast<const char*>(data), size);
-  if (!patchmill::KeepsReaderContract(text, patchmill::ReadBv(text))) __builtin_trap();
+  patchmill::Diagnostics remarks;
+  if (!patchmill::KeepsReaderContract(text, patchmill::ReadBv(text, &remarks))) __builtin_trap();
+  if (remarks.size() > 1) __builtin_trap();
   return 0;
 }

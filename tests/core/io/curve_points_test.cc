@@ -67,10 +67,43 @@ TEST(CurvePoints, FaultsCarryTheirLine) {
   EXPECT_EQ(Fault("xyz", "1 2\n"), "unknown format \"xyz\" of a curve; known are \"csv\" and \"dat\"");
 }
 
-TEST(CurvePoints, LednicersCountsAreNoPoint) {
-  EXPECT_THAT(Fault("dat", "foil\n 2. 3.\n\n0 0\n1 0\n\n0 0\n0.5 -.1\n1 0\n"),
-              HasSubstr("line 2: these look"));
+// Both sides from the nose to the tail become one run from tail to tail, with the nose once.
+TEST(CurvePoints, LednicersFormBecomesOneRun) {
+  const auto expected = ElementsAre(Vec3(1, 0.01, 0), Vec3(0.4, 0.1, 0), Vec3(0, 0, 0), Vec3(0.5, -0.1, 0),
+                                    Vec3(0.8, -0.05, 0), Vec3(1, -0.01, 0));
+  // The nose twice; once, above; once, below.
+  EXPECT_THAT(Read("dat", "foil\n 3. 4.\n\n0 0\n.4 .1\n1 .01\n\n0 0\n.5 -.1\n.8 -.05\n1 -.01\n").points,
+              expected);
+  EXPECT_THAT(Read("dat", "foil\n3 4\n0 0\n.4 .1\n1 .01\n.5 -.1\n.8 -.05\n1 -.01\n").points, expected);
+  EXPECT_THAT(Read("dat", "foil\n3 4\n\n.4 .1\n1 .01\n\n0 0\n.5 -.1\n.8 -.05\n1 -.01\n").points, expected);
+  // A blunt nose that reaches forward by less than 0.5 % of the chord.
+  EXPECT_EQ(Read("dat", "foil\n3 2\n0 0\n-.004 .01\n1 0\n0 0\n1 0\n").points.size(), 4u);
+  const CurvePoints shared =
+      Read("dat",
+           "NACA 0012 in two runs\n 4. 4.\n\n0.0000 0.0000\n0.1000 0.0468\n0.5000 0.0529\n"
+           "1.0000 0.0013\n\n0.1000 -0.0468\n0.5000 -0.0529\n1.0000 -0.0013\n");
+  EXPECT_EQ(shared.title, "NACA 0012 in two runs");
+  EXPECT_THAT(shared.points,
+              ElementsAre(Vec3(1, 0.0013, 0), Vec3(0.5, 0.0529, 0), Vec3(0.1, 0.0468, 0), Vec3(0, 0, 0),
+                          Vec3(0.1, -0.0468, 0), Vec3(0.5, -0.0529, 0), Vec3(1, -0.0013, 0)));
+}
+
+TEST(CurvePoints, CountsThatDoNotFitAreRefused) {
+  // An empty line parts the counts from too few points.
+  EXPECT_THAT(
+      Fault("dat", "foil\n 4. 4.\n\n0 0\n.5 .1\n1 0\n\n0 0\n.5 -.1\n1 0\n"),
+      HasSubstr(
+          "line 2: these look like the counts of Lednicer's form, but 4 and 4 points are announced and 6 "
+          "follow"));
+  // The counts fit, the order does not: x falls from the tail.
+  EXPECT_THAT(Fault("dat", "foil\n2 3\n1 0\n0 0\n0 0\n.5 -.1\n1 0\n"), HasSubstr("line 2: these look"));
+  EXPECT_THAT(Fault("dat", "foil\n2 3\n0 0\n1 0\n.1 0\n.5 -.1\n1 0\n"), HasSubstr("the same first point"));
+  EXPECT_THAT(Fault("dat", "foil\n3 3\n0 0\n1 .1\n0.5 0\n1 -.1\n0 0\n"), HasSubstr("one row for the nose"));
+  // Both sides could have the nose: the rows are in line.
+  EXPECT_THAT(Fault("dat", "foil\n3 3\n0 0\n0 .1\n0 .2\n0 .3\n0 .4\n"), HasSubstr("one row for the nose"));
+  // Plain points.
   EXPECT_EQ(Read("dat", "foil\n2 3\n0 0\n1 0\n").points.size(), 3u);
+  EXPECT_EQ(Read("dat", "foil\n2.5 3\n0 0\n1 0\n2 0\n2 1\n").points.size(), 5u);
 }
 
 TEST(CurvePoints, NoMoreThanTheLimit) {
@@ -84,15 +117,7 @@ TEST(CurvePoints, NoMoreThanTheLimit) {
 TEST(CurvePoints, ShippedFilesAndDamagedOnes) {
   testing::Random random(1);
   int seen = 0, refused = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(PATCHMILL_SOURCE_DIR "/tests/models/curves")) {
-    ++seen;
-    std::ifstream in(entry.path(), std::ios::binary);
-    const std::string text{std::istreambuf_iterator<char>(in), {}};
-    const std::string format = entry.path().extension().string().substr(1);
-    const CurvePoints curve = Read(format, text);
-    EXPECT_GE(curve.points.size(), 30u) << entry.path();
-    EXPECT_FALSE(curve.title.empty());
-    EXPECT_TRUE(curve.planar);
+  const auto damage = [&](const std::string& format, const std::string& text) {
     for (int round = 0; round < 300; ++round) {
       std::string damaged = text;
       for (int k = random.Int(4); k >= 0; --k) {
@@ -112,7 +137,21 @@ TEST(CurvePoints, ShippedFilesAndDamagedOnes) {
       EXPECT_TRUE(KeepsCurvePointsContract(damaged, read)) << read.status();
       if (!read.ok()) ++refused;
     }
+  };
+  for (const auto& entry : std::filesystem::directory_iterator(PATCHMILL_SOURCE_DIR "/tests/models/curves")) {
+    ++seen;
+    std::ifstream in(entry.path(), std::ios::binary);
+    const std::string text{std::istreambuf_iterator<char>(in), {}};
+    const std::string format = entry.path().extension().string().substr(1);
+    const CurvePoints curve = Read(format, text);
+    EXPECT_GE(curve.points.size(), 30u) << entry.path();
+    EXPECT_FALSE(curve.title.empty());
+    EXPECT_TRUE(curve.planar);
+    damage(format, text);
   }
+  damage("dat",
+         "NACA 0012 in two runs\n 4. 4.\n\n0.0000 0.0000\n0.1000 0.0468\n0.5000 0.0529\n1.0000 0.0013\n\n"
+         "0.1000 -0.0468\n0.5000 -0.0529\n1.0000 -0.0013\n");
   EXPECT_GE(seen, 4);
   EXPECT_GT(refused, 300);
 }

@@ -32,6 +32,11 @@ std::vector<std::string> Seeds() {
   return files;
 }
 
+// What no file of the corpus has: a mesh beside patches, and a rational triangle.
+constexpr std::string_view kMeshAndTriangle =
+    "Group 1 net\n1\n4 2\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n4 0 1 2 3\n"
+    "11 2\n0 0 0 1\n0.5 0 0.5 1\n1 0 1 1\n0 0.5 0.5 1\n0.7 0.7 0.7 0.7\n0 1 1 1\n";
+
 // All readers see all files: a format is never guessed, so the wrong reader must only refuse.
 void ExpectContract(std::string_view text, const std::string& what) {
   ASSERT_TRUE(KeepsReaderContract(text, ReadBpt(text))) << what << " as .bpt: " << ReadBpt(text).status();
@@ -45,6 +50,8 @@ TEST(FuzzReplay, WholeFiles) {
   const std::vector<std::string> seeds = Seeds();
   EXPECT_GT(seeds.size(), 70u);
   for (const std::string& file : seeds) ExpectContract(*testing::ReadFile(file), file);
+  EXPECT_TRUE(ReadBv(kMeshAndTriangle).ok()) << ReadBv(kMeshAndTriangle).status();
+  ExpectContract(kMeshAndTriangle, "mesh and triangle");
 }
 
 TEST(FuzzReplay, TruncatedFiles) {
@@ -56,13 +63,18 @@ TEST(FuzzReplay, TruncatedFiles) {
       ExpectContract(std::string_view(text).substr(0, size), file + " cut to " + std::to_string(size));
     }
   }
+  for (std::size_t size = 0; size < kMeshAndTriangle.size(); ++size) {
+    ExpectContract(kMeshAndTriangle.substr(0, size), "mesh and triangle cut");
+  }
 }
 
 TEST(FuzzReplay, ChangedBytes) {
   testing::Random random(20261121);
   constexpr std::string_view kLikely = "0123456789.-+eE \n\r\tnaifx";
-  for (const std::string& file : Seeds()) {
-    const std::string text = *testing::ReadFile(file);
+  std::vector<std::pair<std::string, std::string>> seeds = {
+      {"mesh and triangle", std::string(kMeshAndTriangle)}};
+  for (const std::string& file : Seeds()) seeds.emplace_back(file, *testing::ReadFile(file));
+  for (const auto& [file, text] : seeds) {
     if (text.empty() || text.size() > kLargest) continue;
     for (int round = 0; round < 60; ++round) {
       std::string changed = text;

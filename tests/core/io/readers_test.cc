@@ -95,6 +95,59 @@ TEST(ReadBv, ReadsEveryKind) {
   EXPECT_EQ(rational.points[1], Vec3(0, 1, 0));
 }
 
+// Kind 11: an octant of a sphere is a rational triangle of degree four. Here the cone x^2 + y^2 = z^2
+// between the angles 0 and 90 degrees, from its tip: degree two, with the weights of a quarter circle.
+TEST(ReadBv, RationalTriangles) {
+  const double w = std::sqrt(0.5);
+  // From the tip (row 0, left) to the arc: the points of the net are those of degree 2 in barycentric order.
+  BezierTriangle cone;
+  cone.degree = 2;
+  cone.points = {Vec3(0, 0, 0),     Vec3(0.5, 0, 0.5), Vec3(1, 0, 1),
+                 Vec3(0, 0.5, 0.5), Vec3(1, 1, 1),     Vec3(0, 1, 1)};
+  cone.weights = {1, 1, 1, 1, w, 1};
+  PatchModel model;
+  model.patches.push_back({"", cone});
+  const auto text = WriteBv(model);
+  ASSERT_TRUE(text.ok()) << text.status();
+  EXPECT_EQ(text->substr(0, 5), "11 2\n");
+  const auto read = ReadBv(*text);
+  ASSERT_TRUE(read.ok()) << read.status();
+  const auto& triangle = std::get<BezierTriangle>(read->patches[0].shape);
+  EXPECT_THAT(triangle.weights, ::testing::ElementsAreArray(cone.weights));
+  for (double t = 0; t <= 1; t += 0.125) {  // the side opposite to the tip is the circle z = 1
+    const Vec3 p = Position(read->patches[0].shape, 1 - t, t);
+    EXPECT_NEAR(p.head<2>().norm(), 1.0, 1e-15);
+    EXPECT_NEAR(p.z(), 1.0, 1e-15);
+  }
+  EXPECT_THAT(std::string(ReadBv("11\n1\n0 0 0 1\n1 0 0 1\n0 1 0 0\n").status().message()),
+              HasSubstr("weight of a point = 0; must be in"));
+}
+
+TEST(ReadBv, ReadsOverPolygonMeshesBesidePatches) {
+  const std::string mesh = "Group 1 net\n1\n4 2\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n4 0 1 2 3\n";
+  const std::string patch = "4 1\n0 0 0\n0 10 0\n10 0 0\n10 10 0\n";
+  for (const std::string& text : {mesh + patch + mesh, patch + mesh + mesh}) {
+    Diagnostics remarks;
+    const auto model = ReadBv(text, &remarks);
+    ASSERT_TRUE(model.ok()) << model.status();
+    EXPECT_EQ(model->patches.size(), 1u);
+    ASSERT_EQ(remarks.size(), 1u);
+    EXPECT_EQ(remarks[0].code, "MESH_LEFT_OUT");
+    EXPECT_EQ(remarks[0].where.line, text[0] == 'G' ? 2 : 7);
+    EXPECT_THAT(remarks[0].message, HasSubstr("2 of the file's parts are meshes of kind 1, with 4 polygons"));
+  }
+  Diagnostics remarks;
+  EXPECT_TRUE(ReadBv(patch, &remarks).ok());
+  EXPECT_TRUE(remarks.empty());
+  const auto fault = [](const std::string& text) { return std::string(ReadBv(text).status().message()); };
+  EXPECT_THAT(fault(mesh), HasSubstr("line 2: kind 1 is a polygon mesh, not a patch"));
+  EXPECT_THAT(fault(patch + "1\n3 1\n0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n"),
+              HasSubstr("line 11: vertex of a polygon = \"3\"; must be in [0, 2]"));
+  EXPECT_THAT(fault(patch + "1\n3 1\n0 0 0\n1 0 0\n0 1 0\n2 0 1\n"),
+              HasSubstr("number of vertices of a polygon"));
+  EXPECT_THAT(fault(patch + "1\n1000000000 1\n"), HasSubstr("number of vertices of the mesh"));
+}
+
 TEST(ReadBv, DividesTheSphereOfBembelByItsWeights) {
   const auto text = testing::ReadSharedFile("data/patches/sphere_rational.bv");
   if (!text) GTEST_SKIP() << "../shared/data/patches/sphere_rational.bv is not there";
@@ -190,6 +243,21 @@ TEST(Writers, GiveBackRationalPatchesToRounding) {
   ExpectSame(*ReadBv(*WriteBv(model)), model, 1e-13);
 }
 
+// All degrees of rational triangles: the products of the file, divided by their weights, round.
+TEST(Writers, RationalTrianglesGoRound) {
+  PatchModel model;
+  for (int d = 1; d <= 15; ++d) {
+    model.patches.push_back({"", testing::RandomTriangle(static_cast<std::uint64_t>(d), d, true)});
+  }
+  const auto read = ReadBv(*WriteBv(model));
+  ASSERT_TRUE(read.ok()) << read.status();
+  ExpectSame(*read, model, 1e-13);
+  for (std::size_t k = 0; k < model.patches.size(); ++k) {
+    EXPECT_EQ(std::get<BezierTriangle>(read->patches[k].shape).weights,
+              std::get<BezierTriangle>(model.patches[k].shape).weights);
+  }
+}
+
 TEST(Writers, RefuseWhatTheFormatCannotHold) {
   const PatchModel spline = testing::TwoHills(), rational = Single(testing::RandomBezier(5, 3, 4, true));
   const PatchModel edge_blend = Single(testing::RandomGregory(3, GregoryPatch::Blend::kEdge));
@@ -197,7 +265,6 @@ TEST(Writers, RefuseWhatTheFormatCannotHold) {
   EXPECT_FALSE(WriteBpt(rational).ok());
   EXPECT_FALSE(WriteBv(spline).ok());
   EXPECT_FALSE(WriteBv(edge_blend).ok());
-  EXPECT_FALSE(WriteBv(Single(testing::RandomTriangle(1, 3, true))).ok());
   EXPECT_FALSE(WritePatches(spline).ok());
   EXPECT_FALSE(WritePatches(rational).ok());
   EXPECT_FALSE(WritePatches(Single(testing::RandomGregoryTriangle(4, GregoryPatch::Blend::kEdge))).ok());

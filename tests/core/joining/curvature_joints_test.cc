@@ -11,6 +11,7 @@
 #include "core/joining/join_network.h"
 #include "tests/core/joining/networks.h"
 #include "tests/support/json.h"
+#include "tests/support/known_surfaces.h"
 
 namespace patchmill {
 namespace {
@@ -57,6 +58,13 @@ TEST(CurvatureJoints, Vector) {
                    {"B", {1, 2, 5, 4}, PatchScheme::kG2Gregory, {}}};
   network.controls = {{1, 4, 0, -6 * data["T0"].Vector(), 30 * data["C0"].Vector()},
                       {4, 1, 1, 6 * data["T1"].Vector(), 30 * data["C1"].Vector()}};
+  // At the borders the vector has the means of the ends.
+  const JoinedNetwork shared = JoinNetwork(network);
+  ASSERT_TRUE(shared.findings.empty()) << Text(shared.findings);
+  for (const JoinedEdge& border : shared.edges) {
+    if (border.kind != EdgeKind::kFree) continue;
+    network.controls.push_back(testing::MeanControl(network, shared, border.topology.faces[0]));
+  }
   const JoinedNetwork joined = JoinNetwork(network);
   ASSERT_TRUE(joined.findings.empty()) << Text(joined.findings);
   EXPECT_TRUE(joined.edges[5].equal_curvature);
@@ -244,7 +252,7 @@ TEST(CurvatureJoints, ControlVectorsAreMetAndTheNeighbourFollows) {
     return x.first.norm() / y.first.norm();
   };
   EXPECT_GT((new_b.first - old_b.first).norm(), 0.1);
-  // Old lengths are the means of the ends: the share of the neighbour's length is kept.
+  // The share of the neighbour's length is kept.
   EXPECT_NEAR(share(new_b, new_a), share(old_b, old_a), 1e-12);
   ExpectEqualCurvature(network, joined);
   for (std::size_t f = 0; f < network.faces.size(); ++f) {
