@@ -217,11 +217,11 @@ grpc::Status Send(const Embedded& embedded, const Rpc& rpc, const std::vector<st
   return stream.Finish();
 }
 
-Embedded SmallServer() {
+Embedded SmallServer(double max_job_seconds) {
   ServerOptions options;
   options.listen = "127.0.0.1:0";
   options.log_requests = false;
-  options.max_job_seconds = 1.0;
+  options.max_job_seconds = max_job_seconds;
   options.store_mib = 16;
   auto started = StartServer(options);
   PM_CHECK(started.ok());
@@ -230,7 +230,7 @@ Embedded SmallServer() {
 }
 
 TEST(RandomRequests, EveryWorkedRequestSucceeds) {
-  const Embedded embedded = SmallServer();
+  const Embedded embedded = SmallServer(60.0);
   const std::vector<Rpc> rpcs = AllRpcs();
   EXPECT_GE(rpcs.size(), 15u);
   for (const Rpc& rpc : rpcs) {
@@ -240,7 +240,7 @@ TEST(RandomRequests, EveryWorkedRequestSucceeds) {
 }
 
 TEST(RandomRequests, AreAnsweredWithACodeAndAReason) {
-  const Embedded embedded = SmallServer();
+  const Embedded embedded = SmallServer(1.0);
   const std::vector<Rpc> rpcs = AllRpcs();
   std::map<std::string, int> succeeded, failed;
   const int count = testing::FromEnvironment("PATCHMILL_FUZZ_JOBS", 480);

@@ -27,7 +27,7 @@ MATCHER_P2(RpcStatusIs, code, message, "") {
 inline v1::ErrorInfo InfoOf(const grpc::Status& status) {
   v1::Status wire;
   v1::ErrorInfo info;
-  if (wire.ParseFromString(status.error_details()) && wire.details_size() == 1)
+  if (wire.ParseFromString(status.error_details()) && wire.details_size() >= 1)
     wire.details(0).UnpackTo(&info);
   return info;
 }

@@ -67,7 +67,9 @@ v1::GenerateProgramRequest TeapotRequest(const std::string& content) {
   file.set_format("bpt");
   file.set_content(content);
   request.mutable_job()->mutable_operations(0)->clear_heights();
-  request.mutable_job()->mutable_setup()->set_scale(5.0);
+  request.mutable_job()->mutable_operations(0)->set_scallop_mm(0.3);
+  request.mutable_job()->mutable_operations(0)->set_tolerance_mm(0.05);
+  request.mutable_job()->mutable_setup()->set_scale(50.0);
   request.mutable_job()->mutable_setup()->set_up(v1::UP_AXIS_Y);
   request.add_outputs(v1::OUTPUT_PROGRAM);
   return request;
@@ -198,7 +200,7 @@ TEST_F(UploadModelTest, AKeptAnswerIsTheSame) {
 // Two at once: one job, one answer.
 TEST_F(UploadModelTest, ARunningJobIsJoined) {
   v1::GenerateProgramRequest request = TeapotRequest(content_);
-  request.mutable_job()->mutable_setup()->set_scale(7.0);
+  request.mutable_job()->set_name("joined");
   std::vector<Embedded::Stream> streams(4);
   std::vector<std::thread> threads;
   for (Embedded::Stream& stream : streams)
