@@ -79,6 +79,9 @@ def error_of(status: Any, where: str) -> errors.CallError:
                     model_code=info.code)
     if status.code() == grpc.StatusCode.DEADLINE_EXCEEDED:
         return errors.DeadlineError("The call was not done within its time (timeout_s).", code)
+    if status.code() == grpc.StatusCode.UNIMPLEMENTED:
+        return errors.NotAvailableError(f"The server at {where} has no such call: it is no server of Patchmill, or one of another "
+                                        "version.", code)
     if status.code() == grpc.StatusCode.UNAVAILABLE:
         return _unavailable(code, details, where)
     return _OF_CODE.get(code, errors.CallError)(details or code, code)
