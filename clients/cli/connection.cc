@@ -57,8 +57,8 @@ std::string Worded(const grpc::Status& status) {
   return lines;
 }
 
-// Why a server did not do a call that is right: it cannot be reached, was lost, shuts down or has too much to
-// do. Empty for any other reason.
+// Why a server did not do a call that is right: it cannot be reached, was lost, shuts down, has too much to
+// do or is another server. Empty for any other reason.
 std::string ServerTrouble(const grpc::Status& status, const std::string& server) {
   const std::string& message = status.error_message();
   const std::string reason = InfoOf(status).reason();
@@ -67,6 +67,9 @@ std::string ServerTrouble(const grpc::Status& status, const std::string& server)
   if (status.error_code() == grpc::StatusCode::CANCELLED)
     return fmt::format("{} ended the call: it shuts down, or the answer was read too slowly", server);
   if (!reason.empty()) return "";
+  if (status.error_code() == grpc::StatusCode::UNIMPLEMENTED)
+    return fmt::format("{} has no such call: it is no server of Patchmill, or one of another version",
+                       server);
   if (status.error_code() != grpc::StatusCode::UNAVAILABLE) return "";
   // How gRPC begins its message when it has not come as far as a connection.
   for (const char* begin :

@@ -1,4 +1,5 @@
 // patchmill: the command line.
+#include <algorithm>
 #include <cstdio>
 #include <map>
 #include <string>
@@ -135,7 +136,12 @@ int Main(int argc, char** argv) {
   }
   for (const auto& [command, run] : commands) {
     if (!command->parsed()) continue;
-    const std::vector<std::string> idle = GivenWithoutEffect(*command);
+    std::vector<std::string> idle = GivenWithoutEffect(*command);
+    // Defaults of a shop are for all commands.
+    std::erase_if(idle, [&](const std::string& option) {
+      return std::find(arguments->of_file.begin(), arguments->of_file.end(), option) !=
+             arguments->of_file.end();
+    });
     if (!idle.empty())
       fmt::print(stderr, "patchmill {}: without effect: {}\n", command->get_name(), fmt::join(idle, " "));
     const absl::Status status = run(watch);

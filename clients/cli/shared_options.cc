@@ -1,9 +1,22 @@
 #include "clients/cli/shared_options.h"
 
+#include <absl/strings/match.h>
+
 namespace patchmill::cli {
 namespace {
 
 constexpr char kWithoutEffect[] = "without effect";  // the description of such an option
+
+// Whether one of the files that a command writes is a picture in 3-D.
+bool WritesPicture(const CLI::App& command) {
+  for (const char* name : {"--output", "--preview"}) {
+    const CLI::Option* const option = command.get_option_no_throw(name);
+    if (option == nullptr) continue;
+    for (const std::string& file : option->results())
+      if (absl::EndsWithIgnoreCase(file, ".png")) return true;
+  }
+  return false;
+}
 
 }  // namespace
 
@@ -32,10 +45,13 @@ void AcceptOptionsOf(const CLI::App& other, CLI::App& command) {
 }
 
 std::vector<std::string> GivenWithoutEffect(const CLI::App& command) {
+  const bool has_picture = WritesPicture(command);
   std::vector<std::string> given;
   for (const CLI::Option* option : command.get_options()) {
-    if (option->count() > 0 && option->get_description() == kWithoutEffect)
-      given.push_back("--" + option->get_lnames().front());
+    if (option->count() == 0 || option->get_lnames().empty()) continue;
+    const std::string& name = option->get_lnames().front();
+    if (option->get_description() == kWithoutEffect || (!has_picture && absl::StartsWith(name, "picture-")))
+      given.push_back("--" + name);
   }
   return given;
 }

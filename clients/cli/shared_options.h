@@ -12,8 +12,8 @@ namespace patchmill::cli {
 // no effect, and `--help` does not list them.
 void AcceptOptionsOf(const CLI::App& other, CLI::App& command);
 
-// The options on the command line of `command` that have no effect: "--feed", in the order of their
-// definition.
+// The options on the command line of `command` that have no effect: those of another command, and those of
+// pictures in 3-D where none is written. "--feed", in the order of their definition.
 std::vector<std::string> GivenWithoutEffect(const CLI::App& command);
 
 }  // namespace patchmill::cli

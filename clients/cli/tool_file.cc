@@ -283,7 +283,7 @@ absl::StatusOr<std::vector<FileTool>> ReadTools(std::string_view text, const std
   if (Lower(std::filesystem::path(name).extension().string()) == ".tbl") return ReadTable(std::string(text));
   Struct object;
   if (const absl::Status read = ReadJsonMessage(text, object); !read.ok()) {
-    return Bad(fmt::format("is no JSON, and no tool table (.tbl): {}", std::string(read.message())));
+    return Bad(fmt::format("neither JSON nor a tool table (.tbl): {}", std::string(read.message())));
   }
   if (const Value* data = Find(object, "data"); data != nullptr && data->has_list_value())
     return ReadLibrary(*data);
@@ -308,11 +308,11 @@ absl::StatusOr<v1::Tool> ReadToolFile(const std::string& named) {
     path = named.substr(0, colon);
     number = std::stoi(digits);
   }
-  absl::StatusOr<std::string> text = ReadWholeFile(path);
-  if (!text.ok()) return text.status();
   const auto bad = [&](const absl::Status& status) {
-    return Bad(fmt::format("--tool {}: {}", path, std::string(status.message())));
+    return Bad(fmt::format("--tool {}: {}", named, std::string(status.message())));
   };
+  absl::StatusOr<std::string> text = ReadWholeFile(path);
+  if (!text.ok()) return bad(text.status());
   const auto tools = ReadTools(*text, path);
   if (!tools.ok()) return bad(tools.status());
   auto tool = Choose(*tools, number);

@@ -48,6 +48,11 @@ std::string OneOf(const std::string& name, const std::string& value, const std::
 
 std::string Values(const std::string& number) { return number == "1" ? "a value" : number + " values"; }
 
+// "0.5" for "0.500000".
+std::string ShortNumber(const std::string& number) {
+  return std::regex_replace(number, std::regex("\\.0+$|(\\.\\d*[1-9])0+$"), "$1");
+}
+
 // What CLI11 reports, as a sentence about the option and its values.
 std::string InPlainWords(const CLI::App& app, const CLI::App& command, const std::string& report) {
   std::smatch part;
@@ -62,8 +67,10 @@ std::string InPlainWords(const CLI::App& app, const CLI::App& command, const std
     return fmt::format("{} has {}; must have {}", part[1].str(), Values(part[4].str()), part[3].str());
   if (is("(\\S+): ([^]*) not in \\{(.*)\\}")) return OneOf(part[1].str(), part[2].str(), part[3].str());
   if (is("(\\S+): Value ([^]*) not in range (\\S+) to (\\S+)"))
-    return fmt::format("{} {}; must be in [{}, {}]", part[1].str(), part[2].str(), part[3].str(),
-                       part[4].str());
+    return fmt::format("{} {}; must be in [{}, {}]", part[1].str(), part[2].str(), ShortNumber(part[3].str()),
+                       ShortNumber(part[4].str()));
+  if (is("(\\S+) excludes (\\S+)"))
+    return fmt::format("{} and {} exclude each other; give one of them", part[1].str(), part[2].str());
   return report;
 }
 

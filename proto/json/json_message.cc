@@ -60,6 +60,14 @@ std::string FaultOfLists(std::string_view text) {
   return "";
 }
 
+// The first character of a text that is no object of JSON, for the complaint of protobuf shows a piece of the
+// text that says nothing then. Empty for an object, and for what cannot be printed.
+std::string BeginOfOtherText(std::string_view text) {
+  const std::size_t begin = text.find_first_not_of(" \t\r\n");
+  if (begin == text.npos || text[begin] == '{' || text[begin] <= ' ' || text[begin] > '~') return "";
+  return std::string(1, text[begin]);
+}
+
 google::protobuf::util::TypeResolver* GeneratedTypes() {
   static google::protobuf::util::TypeResolver* const types =
       google::protobuf::util::NewTypeResolverForDescriptorPool(
@@ -130,6 +138,8 @@ std::string NearField(const google::protobuf::Descriptor* message, std::string_v
 absl::Status ReadJsonMessage(std::string_view text, google::protobuf::Message& message,
                              const WireCheck& check, const std::function<bool()>& stopped) {
   if (text.substr(0, kByteOrderMark.size()) == kByteOrderMark) text.remove_prefix(kByteOrderMark.size());
+  if (const std::string begin = BeginOfOtherText(text); !begin.empty())
+    return absl::InvalidArgumentError(absl::StrCat("begins with '", begin, "'; must begin with {"));
   if (std::string fault = FaultOfLists(text); !fault.empty()) return absl::InvalidArgumentError(fault);
   std::string wire;
   StoppedInput in(text, stopped);

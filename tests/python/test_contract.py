@@ -127,7 +127,8 @@ class WrongOptions(unittest.TestCase):
     def test_a_wrong_type(self):
         self.refused(pm.Operation(scallop_mm="0.01"), operation_pb2.Operation(), "job.scallop_mm", "'0.01'; it must be a number")
         self.refused(pm.Operation(detail=[1]), operation_pb2.Operation(), "job.detail", "it must be a number")
-        self.refused(pm.Operation(tool=6), operation_pb2.Operation(), "job.tool", "is a int; it must be patchmill.Tool")
+        self.refused(pm.Operation(tool=6), operation_pb2.Operation(), "job.tool", "is of the type int; it must be patchmill.Tool")
+        self.refused(pm.Setup(up="Z"), setup_pb2.Setup(), "job.up", "= 'Z'; it must be patchmill.UpAxis.Z, or Y, X, NEG_Z,")
         self.refused(pm.Operation(contour_spirals=1), operation_pb2.Operation(), "job.contour_spirals", "True or False")
         self.refused(pm.Selection(patch_ids="f12"), operation_pb2.Selection(), "job.patch_ids", "it must be a list")
         self.refused(pm.Post(program_number=1.5), job_pb2.Post(), "job.program_number", "a whole number")

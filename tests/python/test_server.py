@@ -250,7 +250,7 @@ class Secured(unittest.TestCase):
         tokens = iter(["one", "two"])
         with pm.Client(f"127.0.0.1:{port}", token=lambda: next(tokens), retry=NO_RETRY) as client:
             for _ in range(2):
-                with self.assertRaises(pm.NotAvailableError):
+                with self.assertRaisesRegex(pm.NotAvailableError, "is no server of Patchmill, or one of another version"):
                     client.posts()
         server.stop(None).wait()
         self.assertEqual(heard, ["Bearer one", "Bearer two"])

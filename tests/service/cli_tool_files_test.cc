@@ -150,7 +150,7 @@ TEST_F(ToolFiles, OurOwn) {
 
 TEST_F(ToolFiles, FaultsAreNamed) {
   EXPECT_THAT(Mill(in_.Write("a.json", "{\"x\": 1}")).err, HasSubstr("is no tool"));
-  EXPECT_THAT(Mill(in_.Write("b.json", "T1 D6")).err, HasSubstr("is no JSON, and no tool table"));
+  EXPECT_THAT(Mill(in_.Write("b.json", "T1 D6")).err, HasSubstr("neither JSON nor a tool table"));
   EXPECT_THAT(Mill(in_.Write("c.json", "{\"data\": []}")).err,
               HasSubstr("has no ball end mill; it has none"));
   EXPECT_THAT(Mill(in_ / "absent.json").err, HasSubstr("absent.json"));

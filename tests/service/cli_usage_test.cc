@@ -66,6 +66,10 @@ TEST(CliUsage, FaultsAreSaidInPlainWords) {
       {{"mill", model, "-o", "x.ngc", "--coolant", "flod"},
        "--coolant flod; must be one of off, flood, mist, air; did you mean flood?\n"},
       {{"mill", model, "-o", "x.ngc", "--threads", "-1"}, "--threads -1; must be in [0, 64]\n"},
+      {{"check", model, "--timeout", "0"}, "--timeout 0; must be in [0.001, 1000000]\n"},
+      {{"regions", model, "--detail", "3"}, "--detail 3; must be in [0, 1]\n"},
+      {{"verify", model, model, "--tool", "1=6", "--tool-diameter", "6"},
+       "--tool-diameter and --tool exclude each other; give one of them\n"},
       {{"completion", "zsh"}, "patchmill completion: SHELL zsh; must be bash\n"},
       {{"check", model, "--server", "localhost"}, "--server localhost; must be HOST:PORT"},
       {{"check", model, "--server", "localhost:http"}, "--server localhost:http; must be HOST:PORT"},
@@ -92,6 +96,10 @@ TEST(CliUsage, FaultsOfInputsNameTheirFileOrOption) {
       {{"edit", square, "-o", dir / "x.json"},
        "patchmill: " + square + ": source.file.format = \"bv\"; must be json"},
       {{"fair", square, "-o", dir / "x.csv"}, "patchmill: " + square + ": unknown format \"bv\" of a curve"},
+      {{"mill", model, "-o", dir / "x.ngc", "--machine", square},
+       "no machine in JSON: begins with '5'; must begin with {\n"},
+      {{"mill", model, "-o", dir / "x.ngc", "--tool", "1:6"},
+       "patchmill: --tool 1:6: cannot read 1: No such file"},
       {{"evaluate", square, "--at", "7,0.5,0.5"}, "patchmill: --at: patch_index[0] = 7; must be in [0, 0]"},
       {{"mill", model, "-o", dir / "x.ngc", "--scallop", "-1", "--floor", "1e9", "--bend", "90"},
        "patchmill: --scallop: job.operations[0].scallop_mm = -1; must be "},
@@ -240,6 +248,22 @@ TEST_F(CliDefaults, OneCommandLineServesSeveralCommands) {
   EXPECT_EQ(table.status, 0) << table.err;
   EXPECT_THAT(table.err, HasSubstr("--flute-length"));
   EXPECT_THAT(Patchmill({"reach", "--help"}).out, Not(HasSubstr("--flute-length")));
+}
+
+TEST_F(CliDefaults, PicturesThatNobodyWritesAreNamed) {
+  const std::vector<std::string> coarse = {"--scallop", "0.1", "--tolerance", "0.03"};
+  const auto with = [&](std::vector<std::string> more) {
+    more.insert(more.end(), coarse.begin(), coarse.end());
+    return Mill(more).err;
+  };
+  const char* const idle = "patchmill mill: without effect: --picture-view --picture-size\n";
+  EXPECT_THAT(with({"--picture-view", "top", "--picture-size", "640x480"}), HasSubstr(idle));
+  EXPECT_THAT(with({"--picture-view", "top", "--preview", out_ / "x.svg", "--picture-size", "640x480"}),
+              HasSubstr(idle));
+  EXPECT_THAT(with({"--picture-view", "top", "--preview", out_ / "x.png"}), Not(HasSubstr("without effect")));
+  // Defaults of a shop are for all jobs.
+  EXPECT_THAT(with({"--config", in_.Write("shop.ini", "picture-view = top\n")}),
+              Not(HasSubstr("without effect")));
 }
 
 TEST_F(CliDefaults, ResultsGoToTheStandardOutput) {

@@ -106,6 +106,13 @@ def _numbers(values: Any, descriptor: Any, columns: int, path: str) -> list[Any]
     return flat
 
 
+def _members_of(enum_type: Any) -> str:
+    """The values of an enumeration that an option takes."""
+    kind = _REGISTRY[enum_type.full_name]
+    names = [member.name for member in kind if member.value]
+    return f"patchmill.{kind.__name__}.{names[0]}" + (f", or {', '.join(names[1:])} of it" if len(names) > 1 else "")
+
+
 def _scalar(value: Any, descriptor: Any, path: str) -> Any:
     kind = descriptor.cpp_type
     try:
@@ -125,7 +132,7 @@ def _scalar(value: Any, descriptor: Any, path: str) -> Any:
     except TypeError:
         names = {descriptor.CPPTYPE_BOOL: "True or False", descriptor.CPPTYPE_STRING: "text",
                  descriptor.CPPTYPE_DOUBLE: "a number", descriptor.CPPTYPE_FLOAT: "a number"}
-        wanted = names.get(kind, "a whole number or a value of its enumeration")
+        wanted = names.get(kind) or (_members_of(descriptor.enum_type) if kind == descriptor.CPPTYPE_ENUM else "a whole number")
         raise OptionError(path, f"= {value!r}; it must be {wanted}") from None
 
 
@@ -167,7 +174,7 @@ def to_message(value: Any, message: Any, path: str = "") -> Any:
     field."""
     descriptor = message.DESCRIPTOR
     if _REGISTRY.get(descriptor.full_name) is None or not isinstance(value, _REGISTRY[descriptor.full_name]):
-        raise OptionError(path, f"is a {type(value).__name__}; it must be patchmill.{descriptor.name}")
+        raise OptionError(path, f"is of the type {type(value).__name__}; it must be patchmill.{descriptor.name}")
     _check_choice(value, descriptor, path)
     for f in dataclasses.fields(value):
         item, of_field = getattr(value, f.name), descriptor.fields_by_name.get(f.name)

@@ -78,6 +78,11 @@ def error_of(status: Any, where: str) -> errors.CallError:
         return kind(details, code, info.reason, wrong_fields=fields, wrong_field_count=info.violation_count,
                     limit=info.limit, limit_value=info.limit_value, actual_value=info.actual_value,
                     model_code=info.code)
+    if status.code() == grpc.StatusCode.DEADLINE_EXCEEDED:
+        return errors.DeadlineError("The call was not done within its time (timeout_s).", code)
+    if status.code() == grpc.StatusCode.UNIMPLEMENTED:
+        return errors.NotAvailableError(f"The server at {where} has no such call: it is no server of Patchmill, or one of another "
+                                        "version.", code)
     if status.code() == grpc.StatusCode.UNAVAILABLE:
         return _unavailable(code, details, where)
     return _OF_CODE.get(code, errors.CallError)(details or code, code)
