@@ -485,6 +485,10 @@ absl::Status Interpreter::Home(const BlockModes& block) {
   if (!HasAxis(block)) return Bad(fmt::format("{} without coordinates", word));
   if (motion_mode_ != 0 && motion_mode_ != 10) return Bad(fmt::format("{} needs G0 or G1 in force", word));
   if (incremental_) return Bad(fmt::format("{} while G91 is in force", word));
+  for (const char axis : kAxis) {
+    if (block[axis] && block.axis_mode[static_cast<std::size_t>(axis - 'X')] == AxisMode::kIncremental)
+      return Bad(fmt::format("{} with an incremental coordinate", word));
+  }
   const double safe = params_.machine_z_safe.value_or(dialect_.machine_top);
   if (z && *z * unit_ < safe) {
     return Bad(fmt::format("{} with Z below machine {}: it is not known to be above everything", word,

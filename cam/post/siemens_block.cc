@@ -122,6 +122,9 @@ class LineReader {
         notes_.push_back(
             {"ROTARY_ASSUMED", fmt::format("{} follows rotary axes; they are taken to stand at zero", name)});
         return absl::OkStatus();
+      case NameUse::kSpindle:
+        stops_spindle_ = true;
+        return absl::OkStatus();
       case NameUse::kFrame:
         return Refuse(fmt::format("{} beside other words; give it a line of its own", name));
       case NameUse::kIgnored:
@@ -138,7 +141,7 @@ class LineReader {
     const SiemensName* const known = FindAddress(item.name);
     if (known != nullptr && known->use == NameUse::kRefused)
       return Refuse(fmt::format("{}=: {}", item.name, known->note));
-    if (known != nullptr && known->use == NameUse::kIgnored) return Named(item.name, known);
+    if (known != nullptr && known->use != NameUse::kZeroOnly) return Named(item.name, known);
     if (!number) {
       return Refuse(fmt::format("{}={}: not a number; assignments and parameters are not supported",
                                 item.name, item.text.substr(0, 40)));
@@ -267,6 +270,7 @@ class LineReader {
   absl::StatusOr<std::optional<BlockModes>> Extras(BlockModes modes) {
     modes.rotary = modes.rotary || rotary_;
     modes.merges = merges_;
+    if (stops_spindle_ && !modes.spindle) modes.spindle = 50;
     modes.turns = turns_;
     if (blending_ && !rounds_by_distance_) return Refuse("ADIS= or ADISPOS= without G641 in the same line");
     if (blending_.value_or(0.0) > 0.0) modes.blending = blending_;
@@ -303,7 +307,7 @@ class LineReader {
   GcodeBlock words_;
   std::optional<int> edge_;
   bool machine_ = false, reference_ = false, limits_ = false, modal_call_ = false, machine_axes_ = false;
-  bool fixed_point_ = false, rotary_ = false, rounds_by_distance_ = false;
+  bool fixed_point_ = false, rotary_ = false, rounds_by_distance_ = false, stops_spindle_ = false;
   int basic_unit_ = 0;  // 70 or 71
   int absolute_centers_ = 0, relative_centers_ = 0;
   std::array<AxisMode, 3> axis_mode_{};

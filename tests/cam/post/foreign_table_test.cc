@@ -27,6 +27,7 @@ struct Row {
   std::string moves;                  // "r3,4,5 f3,4,1"
   std::string then = "9,9,9";         // where the move after the row ends
   std::string tolerance, ignored;
+  std::string spindle = "on";  // at the move after the row
   std::set<std::string> assumes;
 };
 
@@ -62,6 +63,8 @@ void ReadExpectation(const std::string& text, Row& row) {
       row.tolerance = rest;
     else if (verb == "ignored")
       row.ignored = rest;
+    else if (verb == "spindle")
+      row.spindle = rest;
     else if (verb == "assumes")
       row.assumes.insert(rest);
     else
@@ -176,6 +179,7 @@ void CheckAccepted(const Row& row, const std::string& dialect, const std::string
     EXPECT_EQ(Place(motion->moves.back()), row.then) << text;
     const std::string tolerance = row.tolerance.empty() ? Tolerance(*bare) : row.tolerance;
     EXPECT_EQ(Tolerance(*motion), tolerance) << text;
+    EXPECT_EQ(motion->moves.back().spindle_speed > 0.0F ? "on" : "off", row.spindle) << text;
   }
   std::set<std::string> codes = Codes(*bare);
   codes.insert(row.assumes.begin(), row.assumes.end());
