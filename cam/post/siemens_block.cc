@@ -129,7 +129,7 @@ class LineReader {
         return Refuse(fmt::format("{} beside other words; give it a line of its own", name));
       case NameUse::kIgnored:
       case NameUse::kZeroOnly:
-        if (without_effect_.empty()) without_effect_ = name;
+        without_effect_.emplace_back(name);
         return absl::OkStatus();
     }
     return absl::OkStatus();
@@ -228,7 +228,7 @@ class LineReader {
     }
     BlockModes modes;
     modes.deletable = line.deletable;
-    modes.without_effect = name;
+    modes.without_effect = {std::string(name)};
     return modes;
   }
 
@@ -275,7 +275,7 @@ class LineReader {
     if (blending_ && !rounds_by_distance_) return Refuse("ADIS= or ADISPOS= without G641 in the same line");
     if (blending_.value_or(0.0) > 0.0) modes.blending = blending_;
     modes.tool_name = std::string(tool_name_);
-    if (modes.without_effect.empty()) modes.without_effect = std::string(without_effect_);
+    modes.without_effect.insert(modes.without_effect.end(), without_effect_.begin(), without_effect_.end());
     modes.notes.insert(modes.notes.end(), notes_.begin(), notes_.end());
     return modes;
   }
@@ -284,7 +284,7 @@ class LineReader {
   absl::StatusOr<std::optional<BlockModes>> Limits() const {
     BlockModes modes;
     modes.deletable = words_.deletable;
-    modes.without_effect = "G25 or G26";
+    modes.without_effect = {"G25 or G26"};
     return modes;
   }
 
@@ -313,7 +313,8 @@ class LineReader {
   std::array<AxisMode, 3> axis_mode_{};
   std::optional<bool> merges_;
   std::optional<double> turns_, blending_;
-  std::string_view tool_name_, without_effect_;
+  std::string_view tool_name_;
+  std::vector<std::string> without_effect_;
   std::vector<BlockNote> notes_;
 };
 

@@ -441,7 +441,7 @@ TEST(OwnPostFile, ItsWordsAreAssumptions) {
   EXPECT_TRUE(haas->assumptions.empty());
 }
 
-// reads_as gives a file of the user's own the words of a control; what its [words] says of M words counts first.
+// reads_as gives a file of one's own the words of a control. What its [words] says of M words counts first.
 TEST(OwnPostFile, ReadsTheWordsOfTheControlThatItNames) {
   const std::string text = "G21 G90 G17 G94\nG69\nM88\nG53 G0 Z0\n";
   EXPECT_FALSE(ReadProgram(text, {.dialect = *ParseDialect(kShop)}).ok());
