@@ -12,8 +12,8 @@ namespace patchmill {
 struct PostCheck {
   std::vector<PostFault> faults;  // empty: programs can be written with it
   std::string name;               // of the dialect
-  // The dialect that Patchmill brings along with which the file shares most lines. Comments and empty lines do
-  // not count. Empty if they share none.
+  // The dialect of Patchmill's own with which the file shares most lines. Comments and empty lines do not
+  // count. Empty if they share none.
   std::string base;
   struct OwnLine {
     int line = 0;  // of the file, from 1

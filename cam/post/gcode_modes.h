@@ -64,7 +64,7 @@ struct BlockModes {
   bool still = false;                   // X, Y and Z belonged to a word that moves nothing
   std::array<AxisMode, 3> axis_mode{};  // of X, Y, Z
   std::string tool_name;                // of a tool that has no number
-  std::string without_effect;           // the first word that neither moves nor changes the path
+  std::vector<std::string> without_effect;  // words that neither move nor change the path
   std::vector<BlockNote> notes;
   // A coordinate other than 0 without a decimal point, where that matters (Dialect::coordinate_point); or
   // '\0'.

@@ -102,7 +102,7 @@ absl::StatusOr<std::optional<BlockModes>> Neutral(const std::vector<std::string>
     return SetupFault(fmt::format("CYCL DEF {} with {}: {}", ShownWord(part), ShownWord(word), kFrameReason));
   }
   BlockModes modes;
-  modes.without_effect = fmt::format("CYCL DEF {}", part.substr(0, part.find('.')));
+  modes.without_effect = {fmt::format("CYCL DEF {}", part.substr(0, part.find('.')))};
   return modes;
 }
 
@@ -183,7 +183,7 @@ absl::StatusOr<BlockModes> ReadFrame(const std::vector<std::string>& words) {
   BlockModes modes;
   const std::string& first = words[0];
   const std::string second = words.size() > 1 ? words[1] : "", third = words.size() > 2 ? words[2] : "";
-  modes.without_effect = Joined(words, 2);
+  modes.without_effect = {Joined(words, 2)};
   const auto refused = [&] {
     return SetupFault(fmt::format("{} is not supported in {}: {}", first, Joined(words, 4), kFrameReason));
   };

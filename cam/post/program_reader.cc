@@ -65,6 +65,7 @@ class Interpreter {
   }
   void NoteAt(int line, const char* code, const std::string& message);
   void NoteBlock(const BlockModes& block);
+  void AddWithoutEffect(const std::string& word);
   bool IsOfPost(const std::string& word) const;
   void SetFeed(const BlockModes& block);
   void UseOwnWord(const BlockModes& block);
@@ -358,17 +359,20 @@ void Interpreter::NoteBlock(const BlockModes& block) {
     rotary_ = true;
     if (!above_) Note("ROTARY_ASSUMED", "rotary axes go to 0; they are taken to stand there before, too");
   }
-  if (block.without_effect.empty()) return;
+  for (const std::string& word : block.without_effect) AddWithoutEffect(word);
+}
+
+// Notes a word that neither moves nor changes the path, with the line where it first stands.
+void Interpreter::AddWithoutEffect(const std::string& word) {
   constexpr std::size_t kMost = 12;
-  const auto known = [&](const std::string& text) {
-    return text.compare(0, text.rfind(" (line"), block.without_effect) == 0;
+  const auto is_word = [&](const std::string& text) {
+    return text.compare(0, text.rfind(" (line"), word) == 0;
   };
-  if (without_effect_.size() > kMost || IsOfPost(block.without_effect) ||
-      std::any_of(without_effect_.begin(), without_effect_.end(), known))
+  if (without_effect_.size() > kMost || IsOfPost(word) ||
+      std::any_of(without_effect_.begin(), without_effect_.end(), is_word))
     return;
-  without_effect_.push_back(without_effect_.size() == kMost
-                                ? "and others"
-                                : fmt::format("{} (line {})", block.without_effect, line_));
+  without_effect_.push_back(without_effect_.size() == kMost ? "and others"
+                                                            : fmt::format("{} (line {})", word, line_));
 }
 
 // Whether the line has the word, and not a longer one: G8, but not G80 and not G8.1.
@@ -485,6 +489,10 @@ absl::Status Interpreter::Home(const BlockModes& block) {
   if (!HasAxis(block)) return Bad(fmt::format("{} without coordinates", word));
   if (motion_mode_ != 0 && motion_mode_ != 10) return Bad(fmt::format("{} needs G0 or G1 in force", word));
   if (incremental_) return Bad(fmt::format("{} while G91 is in force", word));
+  for (const char axis : kAxis) {
+    if (block[axis] && block.axis_mode[static_cast<std::size_t>(axis - 'X')] == AxisMode::kIncremental)
+      return Bad(fmt::format("{} with an incremental coordinate", word));
+  }
   const double safe = params_.machine_z_safe.value_or(dialect_.machine_top);
   if (z && *z * unit_ < safe) {
     return Bad(fmt::format("{} with Z below machine {}: it is not known to be above everything", word,

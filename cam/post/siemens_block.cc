@@ -122,11 +122,14 @@ class LineReader {
         notes_.push_back(
             {"ROTARY_ASSUMED", fmt::format("{} follows rotary axes; they are taken to stand at zero", name)});
         return absl::OkStatus();
+      case NameUse::kSpindle:
+        stops_spindle_ = true;
+        return absl::OkStatus();
       case NameUse::kFrame:
         return Refuse(fmt::format("{} beside other words; give it a line of its own", name));
       case NameUse::kIgnored:
       case NameUse::kZeroOnly:
-        if (without_effect_.empty()) without_effect_ = name;
+        without_effect_.emplace_back(name);
         return absl::OkStatus();
     }
     return absl::OkStatus();
@@ -138,7 +141,7 @@ class LineReader {
     const SiemensName* const known = FindAddress(item.name);
     if (known != nullptr && known->use == NameUse::kRefused)
       return Refuse(fmt::format("{}=: {}", item.name, known->note));
-    if (known != nullptr && known->use == NameUse::kIgnored) return Named(item.name, known);
+    if (known != nullptr && known->use != NameUse::kZeroOnly) return Named(item.name, known);
     if (!number) {
       return Refuse(fmt::format("{}={}: not a number; assignments and parameters are not supported",
                                 item.name, item.text.substr(0, 40)));
@@ -225,7 +228,7 @@ class LineReader {
     }
     BlockModes modes;
     modes.deletable = line.deletable;
-    modes.without_effect = name;
+    modes.without_effect = {std::string(name)};
     return modes;
   }
 
@@ -267,11 +270,12 @@ class LineReader {
   absl::StatusOr<std::optional<BlockModes>> Extras(BlockModes modes) {
     modes.rotary = modes.rotary || rotary_;
     modes.merges = merges_;
+    if (stops_spindle_ && !modes.spindle) modes.spindle = 50;
     modes.turns = turns_;
     if (blending_ && !rounds_by_distance_) return Refuse("ADIS= or ADISPOS= without G641 in the same line");
     if (blending_.value_or(0.0) > 0.0) modes.blending = blending_;
     modes.tool_name = std::string(tool_name_);
-    if (modes.without_effect.empty()) modes.without_effect = std::string(without_effect_);
+    modes.without_effect.insert(modes.without_effect.end(), without_effect_.begin(), without_effect_.end());
     modes.notes.insert(modes.notes.end(), notes_.begin(), notes_.end());
     return modes;
   }
@@ -280,7 +284,7 @@ class LineReader {
   absl::StatusOr<std::optional<BlockModes>> Limits() const {
     BlockModes modes;
     modes.deletable = words_.deletable;
-    modes.without_effect = "G25 or G26";
+    modes.without_effect = {"G25 or G26"};
     return modes;
   }
 
@@ -303,13 +307,14 @@ class LineReader {
   GcodeBlock words_;
   std::optional<int> edge_;
   bool machine_ = false, reference_ = false, limits_ = false, modal_call_ = false, machine_axes_ = false;
-  bool fixed_point_ = false, rotary_ = false, rounds_by_distance_ = false;
+  bool fixed_point_ = false, rotary_ = false, rounds_by_distance_ = false, stops_spindle_ = false;
   int basic_unit_ = 0;  // 70 or 71
   int absolute_centers_ = 0, relative_centers_ = 0;
   std::array<AxisMode, 3> axis_mode_{};
   std::optional<bool> merges_;
   std::optional<double> turns_, blending_;
-  std::string_view tool_name_, without_effect_;
+  std::string_view tool_name_;
+  std::vector<std::string> without_effect_;
   std::vector<BlockNote> notes_;
 };
 

@@ -50,7 +50,7 @@ absl::StatusOr<BlockModes> ReadCycle832(std::string_view arguments) {
 
 absl::StatusOr<BlockModes> ReadCycle800(std::string_view arguments) {
   BlockModes modes;
-  modes.without_effect = "CYCLE800";
+  modes.without_effect = {"CYCLE800"};
   const std::vector<std::string_view> values = SiemensArguments(arguments);
   constexpr std::size_t kMode = 3, kFirst = 4, kLast = 12;  // X0 to Z1
   for (std::size_t k = kFirst; k <= kLast && k < values.size(); ++k) {

@@ -12,6 +12,7 @@ enum class NameUse {
   kEndsMerging,  // ends that
   kFrame,        // resets its frame if nothing follows, or zeros; else it is refused
   kTool,         // a length offset with rotary axes that are not judged
+  kSpindle,      // stops the spindle at an angle
   kMachine,      // the coordinates of the line are those of the machine
   kZeroOnly,     // an address that does nothing at zero; else it is refused
   kRefused

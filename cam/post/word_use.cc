@@ -18,10 +18,6 @@ bool HasCoordinates(const BlockModes& block) {
   return false;
 }
 
-void SetWithoutEffect(const std::string& spelling, BlockModes& block) {
-  if (block.without_effect.empty()) block.without_effect = spelling;
-}
-
 absl::Status SetOffsetByNumber(const WordRule& rule, const std::string& spelling,
                                std::optional<double> number, BlockModes& block) {
   if (!number || !(*number >= 1.0 && *number <= rule.limit) || *number != std::floor(*number)) {
@@ -60,7 +56,7 @@ absl::Status UseWord(const WordRule& rule, const std::string& spelling, BlockMod
   switch (rule.use) {
     case kIgnored:
     case kZeroOnly:
-      SetWithoutEffect(spelling, block);
+      block.without_effect.push_back(spelling);
       return absl::OkStatus();
     case kOfBuilder:
       block.notes.push_back({"WORD_ASSUMED", spelling +

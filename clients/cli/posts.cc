@@ -48,8 +48,9 @@ void PrintCheck(const std::string& file, const v1::PostCheck& check) {
   }
   if (check.faults().empty()) fmt::print("{}: no faults; dialect {}\n", file, check.name());
   if (!check.base().empty()) {
-    fmt::print("derived from {}: {} lines of its own, {} of {} missing\n", check.base(),
-               check.own_lines_size(), check.missing_lines_size(), check.base());
+    fmt::print("derived from {}: {} line{} of its own, {} of {} missing\n", check.base(),
+               check.own_lines_size(), check.own_lines_size() == 1 ? "" : "s", check.missing_lines_size(),
+               check.base());
   }
   for (const v1::PostLine& line : check.own_lines()) fmt::print("  + {}: {}\n", line.line(), line.text());
   for (const std::string& line : check.missing_lines()) fmt::print("  - {}\n", line);
@@ -74,7 +75,7 @@ absl::Status Run(const PostsOptions& options, InterruptWatch& watch) {
     PrintCheck(options.check, response->check());
     const int faults = response->check().faults_size();
     if (faults == 0) return absl::OkStatus();
-    return absl::InvalidArgumentError(
+    return absl::FailedPreconditionError(
         fmt::format("{}: {} fault{}", options.check, faults, faults == 1 ? "" : "s"));
   }
   if (options.name.empty()) {

@@ -10,6 +10,7 @@ std::span<const WordRule> LinuxCncWords() {
   constexpr std::string_view kState = "it stores or restores modes; state them";
   constexpr std::string_view kOwn = "what it does is up to a program of the machine";
   constexpr std::string_view kTool = "it changes the number of the tool without a tool change";
+  constexpr std::string_view kPallet = "it changes the pallet: another part may lie there";
   static constexpr WordRule kWords[] = {
       {.first = 70, .use = kRefused, .note = kDiameter},
       {.first = 80, .use = kIgnored},
@@ -20,7 +21,7 @@ std::span<const WordRule> LinuxCncWords() {
       {.letter = 'M', .first = 190, .use = kStopsSpindle, .takes = "RQP"},
       {.letter = 'M', .first = 480, .use = kIgnored, .last = 490},
       {.letter = 'M', .first = 500, .use = kIgnored, .takes = "P", .last = 530},
-      {.letter = 'M', .first = 600, .use = kIgnored},
+      {.letter = 'M', .first = 600, .use = kRefused, .note = kPallet},
       {.letter = 'M', .first = 610, .use = kRefused, .note = kTool},
       {.letter = 'M', .first = 620, .use = kIgnored, .takes = "P", .last = 650},
       {.letter = 'M', .first = 660, .use = kIgnored, .takes = "PELQ"},

@@ -441,6 +441,24 @@ TEST(OwnPostFile, ItsWordsAreAssumptions) {
   EXPECT_TRUE(haas->assumptions.empty());
 }
 
+// reads_as gives a file of one's own the words of a control. What its [words] says of M words counts first.
+TEST(OwnPostFile, ReadsTheWordsOfTheControlThatItNames) {
+  const std::string text = "G21 G90 G17 G94\nG69\nM88\nG53 G0 Z0\n";
+  EXPECT_FALSE(ReadProgram(text, {.dialect = *ParseDialect(kShop)}).ok());
+  std::string shop = kShop;
+  shop.replace(shop.find("decimals = 3"), 0, "reads_as = fanuc\n");
+  const auto codes = [&](const std::string& post) {
+    const auto motion = ReadProgram(text, {.dialect = *ParseDialect(post)});
+    EXPECT_TRUE(motion.ok()) << motion.status();
+    std::vector<std::string> found;
+    for (const Diagnostic& finding : motion->assumptions) found.push_back(finding.code);
+    return found;
+  };
+  EXPECT_THAT(codes(shop), ::testing::ElementsAre("WORD_ASSUMED", "WORDS_WITHOUT_EFFECT"));
+  shop.replace(shop.find("M51 = none"), 0, "M88 = none\n");
+  EXPECT_THAT(codes(shop), ::testing::ElementsAre("WORD_EXPLAINED", "WORDS_WITHOUT_EFFECT"));
+}
+
 // After homing GRBL's axes stand below their switches.
 TEST(DialectReader, AboveEverythingBeginsAtTheTopOfTheMachine) {
   EXPECT_TRUE(ReadProgram("G21 G90\nG53 G0 Z-2\n", {.dialect = *FindDialect("grbl")}).ok());
@@ -458,6 +476,8 @@ TEST(OwnPostFile, FaultsHaveTheirLine) {
   };
   EXPECT_EQ(with("decimals = 3", "decimals = 9"), "line 4: decimals: = \"9\"; must be a number from 2 to 6");
   EXPECT_EQ(with("decimals = 3", "decimals = 3.5"), "line 4: decimals: = \"3.5\"; must be a whole number");
+  EXPECT_THAT(with("decimals = 3", "reads_as = okuma"),
+              HasSubstr("line 4: reads_as: = \"okuma\"; must be fanuc, grbl, haas"));
   EXPECT_THAT(with("decimals", "decimal"),
               HasSubstr("line 4: [control] has no key \"decimal\"; it has arc_radius_slack"));
   EXPECT_THAT(with("T{tool}", "T{tol}"),

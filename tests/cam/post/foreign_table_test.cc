@@ -26,7 +26,9 @@ struct Row {
   std::string refused, refused_next;  // the message, at the last line of the row or at the move after it
   std::string moves;                  // "r3,4,5 f3,4,1"
   std::string then = "9,9,9";         // where the move after the row ends
-  std::string tolerance, ignored;
+  std::string tolerance;
+  std::vector<std::string> ignored;
+  std::string spindle = "on";  // at the move after the row
   std::set<std::string> assumes;
 };
 
@@ -61,7 +63,9 @@ void ReadExpectation(const std::string& text, Row& row) {
     else if (verb == "tolerance")
       row.tolerance = rest;
     else if (verb == "ignored")
-      row.ignored = rest;
+      row.ignored.push_back(rest);
+    else if (verb == "spindle")
+      row.spindle = rest;
     else if (verb == "assumes")
       row.assumes.insert(rest);
     else
@@ -176,15 +180,16 @@ void CheckAccepted(const Row& row, const std::string& dialect, const std::string
     EXPECT_EQ(Place(motion->moves.back()), row.then) << text;
     const std::string tolerance = row.tolerance.empty() ? Tolerance(*bare) : row.tolerance;
     EXPECT_EQ(Tolerance(*motion), tolerance) << text;
+    EXPECT_EQ(motion->moves.back().spindle_speed > 0.0F ? "on" : "off", row.spindle) << text;
   }
   std::set<std::string> codes = Codes(*bare);
   codes.insert(row.assumes.begin(), row.assumes.end());
   EXPECT_EQ(Codes(*motion), codes) << text;
   if (row.ignored.empty()) {
     EXPECT_EQ(IgnoredWords(*motion), "") << text;
-  } else {
-    EXPECT_THAT(IgnoredWords(*motion), HasSubstr(row.ignored + " (line")) << text;
   }
+  for (const std::string& word : row.ignored)
+    EXPECT_THAT(IgnoredWords(*motion), HasSubstr(" " + word + " (line")) << text;
 }
 
 TEST(ForeignTable, EveryLineDoesWhatItsRowSays) {

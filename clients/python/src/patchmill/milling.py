@@ -230,7 +230,7 @@ def posts(*, timeout_s: float | None = None) -> Call[Sequence[PostInfo]]:
 
 
 def check_post(post_file: str, *, timeout_s: float | None = None) -> Call[PostCheck]:
-    """What is to say of the text of a post file: its faults, what it derives from, what it leaves to the control."""
+    """What is to say of a post file: its faults, what it derives from, what it leaves to the control."""
     return Call(RPCS["ListPosts"], toolpath_service_pb2.ListPostsRequest(post_file=post_file),
                 lambda: One(_check_of), timeout_s=timeout_s)
 
