@@ -419,6 +419,7 @@ absl::StatusOr<LoadedModel> LoadModel(const v1::ModelSource& source, std::string
                                       const RunContext& run, const ModelAccess& access) {
   PM_ASSIGN_OR_RETURN(LoadedModel loaded, Load(source, at, run, access));
   if (!loaded.digest.empty() && source.has_model_sha256()) return loaded;
+  PM_RETURN_IF_ERROR(run.Check());
   loaded.digest = ModelDigest(loaded.model);
   return loaded;
 }

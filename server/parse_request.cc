@@ -23,10 +23,12 @@ absl::StatusOr<InFlight::Hold> ParseRequest(RawCall& call, InFlight& in_flight,
         count, CountWire(reader, size, *message.GetDescriptor(), ListLimits(in_flight.limit_bytes())));
   }
   PM_ASSIGN_OR_RETURN(InFlight::Hold hold, in_flight.Take(count.memory_bytes));
+  if (call.Cancelled()) return absl::CancelledError("cancelled by the caller");
   if (!grpc::SerializationTraits<google::protobuf::Message>::Deserialize(&call.request(), &message).ok()) {
     return RequestUnreadableError(fmt::format("the request is no {}", message.GetDescriptor()->full_name()));
   }
   call.DropRequest();
+  if (call.Cancelled()) return absl::CancelledError("cancelled by the caller");
   return hold;
 }
 

@@ -105,7 +105,9 @@ absl::StatusOr<CheckedModel> FromProto(const v1::PatchModel& proto, std::string_
     return checked;
   }
   checked.model.patches.reserve(static_cast<std::size_t>(proto.patches_size()));
+  constexpr int kPolled = 1024;  // patches between two looks at the run
   for (int i = 0; i < proto.patches_size(); ++i) {
+    if (i % kPolled == 0) PM_RETURN_IF_ERROR(run.Check());
     checked.model.patches.push_back(FromProto(proto.patches(i), head.unit, i, checked.faults));
   }
   checked.model.faces.reserve(static_cast<std::size_t>(proto.faces_size()));
@@ -117,6 +119,7 @@ absl::StatusOr<CheckedModel> FromProto(const v1::PatchModel& proto, std::string_
   for (const Diagnostic& fault : checked.faults) {
     if (fault.where.patch_index) reported.insert(*fault.where.patch_index);
   }
+  PM_RETURN_IF_ERROR(run.Check());
   for (Diagnostic& fault : ValidateModel(checked.model)) {
     if (fault.where.patch_index && reported.contains(*fault.where.patch_index)) continue;
     checked.faults.push_back(std::move(fault));
