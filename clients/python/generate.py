@@ -22,7 +22,7 @@ WIDTH = 100
 # Answers that the package collects in classes of its own, and messages that nobody but the package reads.
 LEFT_OUT = {
     "GenerateProgramResponse", "VerifyProgramResponse", "SplitRegionsResponse", "PathBlock", "MeshBlock", "ProgramChunk",
-    "Status", "ErrorInfo", "ImportResult", "ImportReport", "ImportedKind",
+    "Status", "ErrorInfo", "RetryInfo", "ImportResult", "ImportReport", "ImportedKind",
 }
 # Their fields may be given by position: Point3(1, 2, 3).
 POSITIONAL = {"Point2", "Point3"}

@@ -135,8 +135,10 @@ def resolve(model: ModelLike, operation: Operation, *, setup: Setup | None = Non
 
 
 def inline(model: Model, make: Any) -> Inline | None:
-    whole = model.inline
-    return None if whole is None else Inline(lambda: upload(whole), lambda: make(whole))
+    if model.inline is None:
+        return None
+    whole: Model = model.inline
+    return Inline(lambda: upload(whole), lambda: make(whole))
 
 
 class _VerifyCollector:
