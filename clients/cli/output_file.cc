@@ -134,7 +134,7 @@ absl::Status OutputFile::CheckWritable() const {
   if (std::filesystem::is_directory(path_, ignored)) {
     return absl::InvalidArgumentError(fmt::format("{} is a directory", path_));
   }
-  if (const absl::Status unread = CheckNotRead(path_); !unread.ok()) return unread;
+  if (absl::Status unread = CheckNotRead(path_); !unread.ok()) return unread;
   if (IsSpecial(path_)) return access(path_.c_str(), W_OK) == 0 ? absl::OkStatus() : Fault(path_);
   const std::string target = Target(path_);
   if (target.empty()) {
@@ -149,7 +149,7 @@ absl::Status CheckWritable(std::initializer_list<const OutputFile*> files) {
   std::vector<const OutputFile*> seen;
   for (const OutputFile* file : files) {
     if (!file->wanted()) continue;
-    if (const absl::Status writable = file->CheckWritable(); !writable.ok()) return writable;
+    if (absl::Status writable = file->CheckWritable(); !writable.ok()) return writable;
     for (const OutputFile* other : seen) {
       if (file->is_standard() && other->is_standard())
         return absl::InvalidArgumentError("two results go to the standard output; give one of them a file");
@@ -173,8 +173,9 @@ absl::Status Commit(std::initializer_list<const OutputFile*> files) {
   each([&](const OutputFile& file) {
     if (file.is_standard() || IsSpecial(file.path())) return absl::OkStatus();
     absl::StatusOr<TemporaryFile> made = WriteTemporary(Target(file.path()), file.bytes());
-    if (made.ok()) temporary.push_back(*std::move(made));
-    return made.status();
+    if (!made.ok()) return made.status();
+    temporary.push_back(*std::move(made));
+    return absl::OkStatus();
   });
   each([](const OutputFile& file) {
     return file.is_standard() || IsSpecial(file.path()) ? WriteSpecial(file) : absl::OkStatus();

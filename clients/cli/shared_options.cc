@@ -1,6 +1,7 @@
 #include "clients/cli/shared_options.h"
 
 #include <absl/strings/match.h>
+#include <absl/strings/str_cat.h>
 
 namespace patchmill::cli {
 namespace {
@@ -26,7 +27,8 @@ void AcceptOptionsOf(const CLI::App& other, CLI::App& command) {
       if (command.get_option_no_throw("--" + name) != nullptr) continue;
       std::string names = "--" + name;
       for (const std::string& letter : option->get_snames()) {
-        if (command.get_option_no_throw("-" + letter) == nullptr) names = "-" + letter + "," + names;
+        if (command.get_option_no_throw("-" + letter) == nullptr)
+          names = absl::StrCat("-", letter, ",", names);
       }
       if (option->get_items_expected_max() == 0) {
         command.add_flag(names)->description(kWithoutEffect)->group("");
