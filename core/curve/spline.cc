@@ -59,7 +59,9 @@ std::vector<HermiteCurve> Splined(const std::vector<Vec3>& points, const std::ve
       const std::optional<Vec3>& given = i == 0 ? ends.start : ends.end;
       rows.on[i] = given ? 1.0 : 2.0;
       (i == 0 ? rows.above : rows.below)[i] = given ? 0.0 : 1.0;
-      right[i] = given ? *given : Vec3(3.0 * slope(i == 0 ? 0 : n - 2));
+      const Vec3 bend = i == 0 ? Vec3(-0.5 * chord.front() * ends.start_second)
+                               : Vec3(0.5 * chord.back() * ends.end_second);
+      right[i] = given ? *given : Vec3(3.0 * slope(i == 0 ? 0 : n - 2) + bend);
       continue;
     }
     const std::size_t before = i == 0 ? n - 1 : i - 1;

@@ -14,6 +14,8 @@ struct SplineEnds {
   // Derivatives per unit of chord at the ends. An end without one is natural (no curvature). Unused when
   // closed.
   std::optional<Vec3> start, end;
+  // Second derivatives per square of the chord, at ends whose derivative is not given; zero at natural ends.
+  Vec3 start_second = Vec3::Zero(), end_second = Vec3::Zero();
 };
 
 // One cubic per pair of neighbours (when closed, also from the last point to the first), each with its own

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/curve/curve.h"
+#include "core/curve/ended_spline.h"
 #include "core/patch/patch.h"
 
 namespace patchmill {
@@ -97,12 +98,14 @@ struct NetworkEdge {
 };
 
 // A smooth curve through three or more vertices, or two if it is not closed. It is the cubic spline in the
-// chord parameter (core/curve/spline.h), natural at its ends, cut into one cubic edge per pair of neighbours.
+// chord parameter (core/curve/spline.h), cut into one cubic edge per pair of neighbours. An end without a
+// direction or a curvature is natural. A closed line has no ends.
 // Where two lines cross, G2-Gregory faces can share their curvature.
 struct NetworkLine {
   std::vector<int> vertices;
   bool closed = false;
   bool crease = false;  // of all its edges
+  SplineEnd start = {}, end = {};
 };
 
 enum class PatchScheme {

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "core/curve/ended_spline.h"
 #include "core/curve/spline.h"
 #include "core/joining/network_findings.h"
 
@@ -38,7 +39,15 @@ CurveNetwork WithLinesAsEdges(const CurveNetwork& network, Diagnostics& list) {
       points.push_back(network.vertices[static_cast<std::size_t>(v)].position);
     // Its vertex has a finding already.
     if (!std::ranges::all_of(points, [](const Vec3& p) { return p.allFinite(); })) continue;
-    const auto spline = SplineThrough(points, line.closed);
+    const bool ends =
+        line.start.direction || line.start.curvature || line.end.direction || line.end.curvature;
+    if (line.closed && ends) {
+      findings.Error("INVALID_LINE", findings.AtLine(k),
+                     "is closed and has a direction or a curvature at an end; a closed line has no end");
+      continue;
+    }
+    const auto spline =
+        ends ? SplineWithEnds(points, line.start, line.end) : SplineThrough(points, line.closed);
     if (!spline.ok()) {
       findings.Error("INVALID_LINE", findings.AtLine(k),
                      fmt::format("has no spline: {}", std::string(spline.status().message())));

@@ -20,10 +20,7 @@ class NetworkReader {
     for (int i = 0; i < proto.vertices_size(); ++i) network.vertices.push_back(Vertex(proto.vertices(i), i));
     for (int i = 0; i < proto.edges_size(); ++i) network.edges.push_back(Edge(proto.edges(i), i));
     for (int i = 0; i < proto.faces_size(); ++i) network.faces.push_back(Face(proto.faces(i), i));
-    for (const v1::NetworkLine& line : proto.lines()) {
-      network.lines.push_back(
-          {{line.vertices().begin(), line.vertices().end()}, line.closed(), line.crease()});
-    }
+    for (int k = 0; k < proto.lines_size(); ++k) network.lines.push_back(Line(proto.lines(k), k));
     for (int i = 0; i < proto.edges_size(); ++i) {
       const v1::NetworkEdge& edge = proto.edges(i);
       for (int k = 0; k < edge.controls_size(); ++k) {
@@ -91,6 +88,20 @@ class NetworkReader {
                                 {normal.faces().begin(), normal.faces().end()}});
     }
     return vertex;
+  }
+
+  NetworkLine Line(const v1::NetworkLine& from, int index) {
+    const std::string at = fmt::format("network.lines[{}]", index);
+    const auto optional = [&](const Numbers& numbers, double factor, const char* field) {
+      return numbers.empty() ? std::nullopt : std::optional(Vector(numbers, factor, at + field));
+    };
+    return {{from.vertices().begin(), from.vertices().end()},
+            from.closed(),
+            from.crease(),
+            {optional(from.start_direction(), 1.0, ".start_direction"),
+             optional(from.start_curvature(), 1.0 / unit_, ".start_curvature")},
+            {optional(from.end_direction(), 1.0, ".end_direction"),
+             optional(from.end_curvature(), 1.0 / unit_, ".end_curvature")}};
   }
 
   EdgeShape Shape(const v1::NetworkEdge& from, const std::string& at) {

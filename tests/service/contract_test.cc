@@ -118,6 +118,8 @@ TEST(Contract, DimensionedNumbersCarryTheirUnit) {
                                        "end_tangent",
                                        "start_direction",
                                        "end_direction",
+                                       "start_curvature",
+                                       "end_curvature",
                                        "derivative",
                                        "origin",
                                        "chord",

@@ -118,6 +118,36 @@ TEST(NetworkModel, LinesAndControlsReachTheJoint) {
   }
 }
 
+// Directions have no unit; curvatures are in 1 / length_unit.
+TEST(NetworkModel, EndsOfLinesReachTheEdges) {
+  for (const auto unit : {v1::LENGTH_UNIT_MILLIMETER, v1::LENGTH_UNIT_INCH}) {
+    v1::PatchModel proto = TwoCells();
+    proto.set_length_unit(unit);
+    proto.mutable_network()->clear_controls();
+    proto.mutable_network()->clear_edges();
+    v1::NetworkLine& line = *proto.mutable_network()->mutable_lines(0);
+    for (const double x : {2.0, 0.0, 1.0}) line.add_start_direction(x);
+    for (const double x : {0.0, 0.0, 0.05}) line.add_end_curvature(x);
+    const double mm = *MillimetersPer(unit);
+    const auto checked = FromProto(proto, "m");
+    ASSERT_TRUE(checked.ok()) << checked.status();
+    ASSERT_TRUE(checked->faults.empty()) << checked->faults[0].message;
+    const SurfaceJet start = Evaluate(checked->model.patches[0].shape, 0.0, 0.0),
+                     end = Evaluate(checked->model.patches[1].shape, 1.0, 0.0);
+    EXPECT_LE(start.du.normalized().cross(Vec3(2, 0, 1).normalized()).norm(), 1e-12);
+    const Vec3 along = end.du.normalized(), wanted = Vec3(0, 0, 0.05) / mm;
+    const Vec3 bend = (end.duu - along * along.dot(end.duu)) / end.du.squaredNorm();
+    EXPECT_LE((bend - (wanted - along * along.dot(wanted))).norm(), 1e-10 / mm);
+  }
+  v1::PatchModel proto = TwoCells();
+  proto.mutable_network()->mutable_lines(0)->add_end_direction(1.0);
+  const auto checked = FromProto(proto, "m");
+  ASSERT_TRUE(checked.ok()) << checked.status();
+  ASSERT_FALSE(checked->faults.empty());
+  EXPECT_THAT(checked->faults[0].message,
+              HasSubstr("network.lines[0].end_direction has 1 numbers; must have x y z"));
+}
+
 TEST(NetworkModel, WarningsDoNotRefuseTheModel) {
   v1::PatchModel proto = TwoCells();
   proto.mutable_network()->clear_controls();
