@@ -52,7 +52,7 @@ class Async(unittest.IsolatedAsyncioTestCase):
                     await job
                 # The server is free again.
                 async with pm.AsyncClient(server.address) as patient:
-                    self.assertTrue((await patient.regions(MODEL, operation())).regions.regions)
+                    self.assertTrue((await patient.regions(MODEL, operation())).regions)
 
     async def test_cancel_deadline_and_errors(self):
         async with pm.AsyncClient() as client:

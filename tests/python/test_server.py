@@ -67,7 +67,7 @@ class Trouble(unittest.TestCase):
             self.assertTrue(client.check(MODEL).is_usable)  # calls of milliseconds have places of their own
             with pm.Client(server.address, retry=pm.Retry(attempts=20, first_wait_s=0.1, longest_wait_s=0.3)) as patient:
                 threading.Timer(0.5, job.cancel).start()
-                self.assertTrue(patient.regions(MODEL, operation()).regions.regions)
+                self.assertTrue(patient.regions(MODEL, operation()).regions)
             self.assertIsInstance(job.ended_by(), pm.JobCancelledError)
 
     def test_waiting_ends_with_the_deadline_and_with_a_cancel(self):
