@@ -322,8 +322,10 @@ class StripMaker {
 absl::StatusOr<std::vector<BesideStrip>> FindBesideStrips(const Surface& surface,
                                                           const BesidePartParams& params,
                                                           const RunContext& run) {
+  constexpr std::size_t kPolled = 256;  // pieces between two looks at the run
   std::vector<std::size_t> walls;
   for (std::size_t i = 0; i < surface.pieces.size(); ++i) {
+    if (i % kPolled == 0) PM_RETURN_IF_ERROR(run.Check());
     if (GridOn(surface.pieces[i], params.tolerance, 1, 1)) walls.push_back(i);
   }
   if (walls.empty()) return std::vector<BesideStrip>();
