@@ -52,6 +52,7 @@ absl::StatusOr<ModelCheck> CheckModel(const Surface& surface, const std::optiona
   ModelCheck check;
   check.findings = surface.network.findings;
   check.box = TightBox(surface);
+  PM_RETURN_IF_ERROR(run.Check());
   const Diagnostics walls = WallsWithoutSide(surface);
   check.findings.insert(check.findings.end(), walls.begin(), walls.end());
   const ConcaveSpot spot = SmallestConcaveRadius(surface, run);

@@ -149,6 +149,7 @@ absl::StatusOr<std::shared_ptr<const StockSolid>> ResolveStock(const Surface& su
 absl::StatusOr<Resolved> Resolve(const Surface& surface, const Job& job, const RunContext& run) {
   Resolved r;
   r.box = TightBox(surface);
+  PM_RETURN_IF_ERROR(run.Check());
   switch (job.setup.zero) {
     case Setup::Zero::kPoint:
       r.program_zero = job.setup.zero_point;

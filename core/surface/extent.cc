@@ -4,6 +4,7 @@
 #include <queue>
 
 #include "core/base/parallel.h"
+#include "core/base/polled_run.h"
 #include "core/diffgeo/forms.h"
 
 namespace patchmill {
@@ -31,6 +32,8 @@ double LowerBound(const BernsteinNet& net, int axis, double sign) {
   return low;
 }
 
+constexpr std::size_t kPolled = 256;  // pieces between two looks at the run of the thread
+
 // The surface point where sign * (coordinate `axis`) is smallest.
 SurfacePoint Extreme(const Surface& surface, int axis, double sign, double tolerance) {
   std::priority_queue<Candidate, std::vector<Candidate>, Later> queue;
@@ -46,6 +49,7 @@ SurfacePoint Extreme(const Surface& surface, int axis, double sign, double toler
   std::vector<double> bounds;
   for (const Piece& piece : surface.pieces) bounds.push_back(LowerBound(piece.net, axis, sign));
   for (std::size_t i = 0; i < surface.pieces.size(); ++i) {
+    if (i % kPolled == 0 && ThisThreadCancelled()) return answer;
     if (!(bounds[i] < best + kPlaceRounding * surface.scale)) continue;  // no place of the piece is better
     for (const double u : {0.0, 0.5, 1.0}) {
       for (const double v : {0.0, 0.5, 1.0}) consider(PieceId(i), u, v);
@@ -54,7 +58,7 @@ SurfacePoint Extreme(const Surface& surface, int axis, double sign, double toler
   for (std::size_t i = 0; i < surface.pieces.size(); ++i) {
     if (bounds[i] < best - tolerance) queue.push({bounds[i], PieceId(i), 0, 1, 0, 1, surface.pieces[i].net});
   }
-  while (!queue.empty() && queue.top().bound < best - tolerance) {
+  while (!queue.empty() && queue.top().bound < best - tolerance && !ThisThreadCancelled()) {
     const Candidate c = queue.top();
     queue.pop();
     const bool split_u = c.u1 - c.u0 >= c.v1 - c.v0;
