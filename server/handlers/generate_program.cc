@@ -179,10 +179,17 @@ bool SendProgram(std::string_view program, const Sink<Response>& sink) {
 bool SendResult(const PreparedJob& prepared, Made& made, const Outputs& outputs, const Sink<Response>& sink) {
   const JobResult& result = made.result;
   const bool verified = !result.program.empty();
+  Response last;
+  v1::Report& report = *last.mutable_report();
+  report = ToProto(result.report, prepared.job, made.resolved, result.program);
   if (outputs.contains(v1::OUTPUT_REGIONS)) {
     Response response;
     *response.mutable_regions() = ToProto(result.regions, result.report.choices, result.report.figures,
                                           made.resolved.program_zero, made.face_ids);
+    for (int id = 0; id < report.regions_size(); ++id) {
+      response.mutable_regions()->mutable_regions(id)->set_deepest_leftover_mm(
+          report.regions(id).deepest_leftover_mm());
+    }
     if (!sink(response)) return false;
   }
   const bool arcs = outputs.contains(v1::OUTPUT_ARCS);
@@ -197,9 +204,7 @@ bool SendResult(const PreparedJob& prepared, Made& made, const Outputs& outputs,
   }
   if (!SendPicture(made.picture, sink)) return false;
   if (outputs.contains(v1::OUTPUT_PROGRAM) && !SendProgram(result.program, sink)) return false;
-  Response response;
-  *response.mutable_report() = ToProto(result.report, prepared.job, made.resolved, result.program);
-  return sink(response);
+  return sink(last);
 }
 
 }  // namespace

@@ -71,13 +71,17 @@ class SameBytes(unittest.TestCase):
 class Answer(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.seen = []
-        cls.result = CLIENT.mill(pm.Model.from_patches(DOME, name="dome"), operation(), progress=cls.seen.append,
+        cls.result = CLIENT.mill(pm.Model.from_patches(DOME, name="dome"), operation(),
                                  outputs=(*pm.VIEW, pm.Output.PICTURE, pm.Output.ARCS))
 
     def test_progress_comes_with_names_and_shares(self):
-        self.assertTrue(self.seen)
-        self.assertTrue(all(0.0 <= p.fraction <= 1.0 for p in self.seen))
+        seen = []
+        CLIENT.mill(HILLS, operation(0.02, 0.01), name="progress", progress=seen.append, outputs=())
+        self.assertTrue(seen)
+        self.assertTrue(all(0.0 <= p.fraction <= 1.0 for p in seen))
+        shares = [p.overall_fraction for p in seen]
+        self.assertEqual(shares, sorted(shares))
+        self.assertEqual([p.job_stage for p in seen], sorted(p.job_stage for p in seen))
 
     def test_the_path_is_that_of_the_program(self):
         path, report = self.result.path, self.result.report
@@ -215,7 +219,7 @@ class EndingEarly(unittest.TestCase):
 
     def test_cancel_by_another_thread(self):
         cancel = pm.Canceller()
-        threading.Timer(0.3, cancel).start()
+        threading.Timer(0.05, cancel).start()
         with self.assertRaises(pm.JobCancelledError):
             CLIENT.regions(HILLS, long_operation(), tessellation_chord_mm=0.002, cancel=cancel)
 

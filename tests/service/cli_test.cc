@@ -933,22 +933,22 @@ TEST_F(Cli, AKilledServerLeavesNoNewProgram) {
 }
 
 TEST_F(Cli, AServerThatIsBusyOrShutsDownSaysSo) {
-  Daemon daemon(kDaemon, {"--max-jobs", "1"});
+  Daemon daemon(kDaemon, {"--max-jobs", "1", "--max-queue", "0"});
   std::vector<std::string> command = {kPatchmill,        "mill",     long_,          "-o",
                                       out_ / "long.ngc", "--server", daemon.target()};
   command.insert(command.end(), fine_.begin(), fine_.end());
   Process job(command);
   Finished second;
   for (int i = 0; i < 100; ++i) {  // until the job has its place
-    second = Patchmill({"check", bump_, "--server", daemon.target()});
+    second = Patchmill({"reach", bump_, "--server", daemon.target()});
     if (second.status != 0) break;
   }
   EXPECT_EQ(second.status, 1);
   EXPECT_THAT(second.err, HasSubstr("patchmill: " + daemon.target() +
-                                    ": the server runs 1 jobs, as many as it may; try again"));
+                                    ": the server runs 1 jobs and 0 wait, as many as may; try again"));
   daemon.process().Signal(SIGTERM);
   for (int i = 0; i < 100; ++i) {
-    second = Patchmill({"check", bump_, "--server", daemon.target()});
+    second = Patchmill({"reach", bump_, "--server", daemon.target()});
     if (second.err.find("the server runs 1 jobs") == std::string::npos) break;
   }
   EXPECT_EQ(second.status, 1);

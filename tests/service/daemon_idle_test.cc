@@ -268,7 +268,8 @@ TEST_P(DaemonIdle, SoonAfterACallHasEnded) {
   arguments.SetMaxReceiveMessageSize(-1);
   const auto channel =
       grpc::CreateCustomChannel(daemon.target(), grpc::InsecureChannelCredentials(), arguments);
-  const double limit = testing::kSanitized ? 5.0 : 0.2;
+  // A machine that does other work beside may take longer; the long tests run on one that does not.
+  const double limit = testing::kSanitized ? 5.0 : testing::LongTests() ? 0.2 : 0.6;
   const int moments = testing::CountOf(3, 40);
   for (int k = 0; k < moments; ++k) {
     double least = 1e9;

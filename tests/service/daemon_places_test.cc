@@ -95,8 +95,10 @@ TEST(DaemonPlaces, ChecksAreNotHeldUpByJobs) {
   if (testing::kSanitized) GTEST_SKIP() << "measures times";
   Daemon daemon(kDaemon);
   const int count = testing::CountOf(150, 500);
+  // The 99th percentile beside four jobs, in idle ones. A machine that does other work beside has more.
+  const double most = testing::LongTests() ? 3.0 : 6.0;
   double best = 1e9;
-  for (int attempt = 0; attempt < 3 && best > 3.0; ++attempt) {
+  for (int attempt = 0; attempt < 3 && best > most; ++attempt) {
     const double idle = Share(SecondsOfChecks(daemon, count), 0.99);
     std::vector<std::unique_ptr<Job>> jobs;
     for (int k = 0; k < 4; ++k) {
@@ -106,7 +108,8 @@ TEST(DaemonPlaces, ChecksAreNotHeldUpByJobs) {
     const double busy = Share(SecondsOfChecks(daemon, count), 0.99);
     best = std::min(best, busy / idle);
   }
-  EXPECT_LE(best, 3.0);
+  EXPECT_LE(best, most);
+  RecordProperty("p99_ratio", std::to_string(best));
 }
 
 TEST(DaemonPlaces, AJobThatWaitsLearnsItsPlaceAndRunsInItsTurn) {
