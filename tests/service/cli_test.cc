@@ -938,8 +938,10 @@ TEST_F(Cli, AServerThatIsBusyOrShutsDownSaysSo) {
                                       out_ / "long.ngc", "--server", daemon.target()};
   command.insert(command.end(), fine_.begin(), fine_.end());
   Process job(command);
+  for (int i = 0; i < 200 && daemon.CpuSeconds() < 0.5; ++i)  // until the job has its place
+    std::this_thread::sleep_for(25ms);
   Finished second;
-  for (int i = 0; i < 100; ++i) {  // until the job has its place
+  for (int i = 0; i < 100; ++i) {
     second = Patchmill({"reach", bump_, "--server", daemon.target()});
     if (second.status != 0) break;
   }
