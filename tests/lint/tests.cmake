@@ -1,6 +1,7 @@
 find_package(Python3 COMPONENTS Interpreter REQUIRED)
 add_test(NAME lint_layers COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/lint/layers.py ${CMAKE_SOURCE_DIR})
 add_test(NAME lint_format COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/lint/format.sh ${CMAKE_SOURCE_DIR})
+add_test(NAME lint_presets COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/lint/presets.sh ${CMAKE_SOURCE_DIR})
 add_test(NAME lint_traces COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/lint/traces.sh ${CMAKE_SOURCE_DIR})
 add_test(NAME lint_citations COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/lint/citations.py ${CMAKE_SOURCE_DIR})
 add_test(NAME lint_words COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/lint/words.py ${CMAKE_SOURCE_DIR})
