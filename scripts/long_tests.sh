@@ -29,7 +29,7 @@ soak() {
 }
 clients() {  # 64 clients of one server
   build release patchmilld
-  python3 tests/service/mixed_clients.py build/release/bin/patchmilld --seed "$seed"
+  tests/service/mixed_clients.py build/release/bin/patchmilld --seed "$seed"
 }
 requests() {  # ten thousand random requests, under the sanitizers
   build asan service_tests
