@@ -80,18 +80,18 @@ absl::StatusOr<Places::Ticket> Enter(Places& places, const Call& call, const Wor
   Places::Waiting waiting;
   waiting.caller = call.caller;
   waiting.poll = std::chrono::milliseconds(limits::kCancelPollMs);
-  waiting.gone = [&] { return !listens || Ended(call) || Clock::now() >= Deadline(call); };
+  const auto is_late = [&] { return call.deadline && Clock::now() >= *call.deadline; };
+  waiting.gone = [&] { return !listens || Ended(call) || is_late(); };
   waiting.on_place = [&](int place) {
     progress.Queue(place);
     if (!work.beat || Clock::now() < next_beat) return;
     next_beat = Clock::now() + std::chrono::milliseconds(limits::kHeartbeatMs);
     listens = work.beat(progress.Now());
   };
-  const Clock::time_point deadline = Deadline(call);
   absl::StatusOr<Places::Ticket> place = places.Enter(waiting);
   if (absl::IsCancelled(place.status())) {
     if (call.env->stopped.load()) return DrainingError();
-    if (Clock::now() >= deadline) return absl::DeadlineExceededError("the deadline passed in the queue");
+    if (is_late()) return absl::DeadlineExceededError("the deadline passed in the queue");
   }
   return place;
 }
@@ -111,6 +111,7 @@ class Memory {
                         static_cast<double>(estimate));
     }
     if (budget_.Fits(estimate)) return absl::OkStatus();
+    if (ledger_.taken() == 0) return Exceeded();  // nobody else has any: it will never be there
     return TooMuchMemoryError(static_cast<double>(ledger_.limit()), static_cast<double>(ledger_.taken()),
                               static_cast<double>(estimate));
   }

@@ -9,8 +9,8 @@
 namespace patchmill {
 namespace {
 
-// Half the surface of the box around the control points: at least a third of the area of a patch that is not
-// folded.
+// Half the surface of the box around the control points: the sum of its projections on three planes. The area
+// of a patch is at most that where each projection of the patch is one to one.
 double AreaOfBox(const PatchShape& shape) {
   Box3 box;
   for (const Vec3& p : ControlPoints(shape)) box.Add(p);

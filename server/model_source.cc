@@ -471,7 +471,11 @@ absl::StatusOr<LoadedNetwork> LoadNetwork(const v1::ModelSource& source, std::st
 absl::Status KeepModel(const LoadedModel& loaded, const v1::ModelSource& source, const RunContext& run,
                        const ModelAccess& access) {
   if (access.store == nullptr) return absl::OkStatus();
-  StoredModel stored{loaded, {}};
+  Canonical findings;
+  findings.Add(std::int64_t{loaded.unitless});
+  for (const Diagnostic& remark : loaded.remarks)
+    findings.Add(remark.code).Add(static_cast<std::int64_t>(remark.severity)).Add(remark.message);
+  StoredModel stored{loaded, {}, findings.Digest()};
   if (loaded.network) {
     PM_ASSIGN_OR_RETURN(const LoadedNetwork network, LoadNetwork(source, "source", run, access));
     stored.network = network.message.SerializeAsString();
@@ -480,6 +484,12 @@ absl::Status KeepModel(const LoadedModel& loaded, const v1::ModelSource& source,
   access.store->Put<StoredModel>({Stored::kModel, access.caller, loaded.digest},
                                  std::make_shared<const StoredModel>(std::move(stored)), bytes);
   return absl::OkStatus();
+}
+
+std::string FindingsOfStored(Store& store, const StoreKey& key) {
+  if (key.digest.empty()) return {};
+  const auto stored = store.Find<StoredModel>(key);
+  return stored == nullptr ? std::string() : stored->findings_digest;
 }
 
 std::size_t MemoryOf(const PatchModel& model) {

@@ -54,8 +54,11 @@ absl::StatusOr<LoadedNetwork> LoadNetwork(const v1::ModelSource& source, std::st
 // A model in the store.
 struct StoredModel {
   LoadedModel loaded;
-  std::string network;  // a curve network as serialized v1::PatchModel; empty for any other model
+  std::string network;          // a curve network as serialized v1::PatchModel; empty for any other model
+  std::string findings_digest;  // of what was found while the model was read: answers repeat it
 };
+// The findings_digest of the model with this key; empty if the store has none.
+std::string FindingsOfStored(Store& store, const StoreKey& key);
 // Keeps a loaded model without faults. `source` is what it was loaded from.
 absl::Status KeepModel(const LoadedModel& loaded, const v1::ModelSource& source, const RunContext& run,
                        const ModelAccess& access);

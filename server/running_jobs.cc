@@ -67,6 +67,10 @@ absl::StatusOr<RunningJobs::Reading> RunningJobs::Start(Job job) {
   try {
     entry.thread = std::thread([this, &entry, answer = reading.answer, job = std::move(job)] {
       Run(job, answer);
+      {
+        const std::lock_guard<std::mutex> ended(mutex_);
+        entry.answer.reset();  // its memory need not wait until the thread is joined
+      }
       entry.ended.store(true);
     });
   } catch (const std::system_error&) {
@@ -78,7 +82,9 @@ absl::StatusOr<RunningJobs::Reading> RunningJobs::Start(Job job) {
 
 void RunningJobs::StopAll(const absl::Status& reason) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  for (Entry& entry : entries_) entry.answer->Stop(reason);
+  for (Entry& entry : entries_) {
+    if (entry.answer) entry.answer->Stop(reason);
+  }
 }
 
 int RunningJobs::running() const {

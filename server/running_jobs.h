@@ -54,7 +54,7 @@ class RunningJobs {
 
  private:
   struct Entry {
-    std::shared_ptr<Answer> answer;
+    std::shared_ptr<Answer> answer;  // null when the job has ended
     std::thread thread;
     std::atomic<bool> ended{false};
   };

@@ -139,29 +139,51 @@ grpc::ByteBuffer BytesOf(const google::protobuf::Message& message) {
   return bytes;
 }
 
-// What an answer depends on, but for its caller: the method, the request without what the answer does not
-// depend on, and the programs that make it.
-std::string AnswerDigest(const std::string& path, const std::string& request) {
-  Canonical digest;
-  digest.Add("patchmill answer 1").Add(path).Add(ServerVersion()).Add(ImporterStamp()).Add(Sha256(request));
-  return digest.Digest();
+// What an answer does not depend on.
+struct Apart {
+  std::string request_id;
+  int max_threads = 0;
+};
+Apart TakeApart(v1::GenerateProgramRequest& request) {
+  Apart apart{std::move(*request.mutable_request_id()), request.max_threads()};
+  request.clear_request_id();
+  request.clear_max_threads();
+  return apart;
 }
-std::string KeyBytes(const v1::GenerateProgramRequest& request) {
-  v1::GenerateProgramRequest key = request;
-  key.clear_request_id();
-  key.clear_max_threads();
-  return key.SerializeAsString();
+void PutBack(Apart apart, v1::GenerateProgramRequest& request) {
+  request.set_request_id(std::move(apart.request_id));
+  request.set_max_threads(apart.max_threads);
 }
-std::string KeyBytes(const v1::VerifyProgramRequest& request) {
-  v1::VerifyProgramRequest key = request;
-  key.clear_max_threads();
-  return key.SerializeAsString();
+Apart TakeApart(v1::VerifyProgramRequest& request) {
+  Apart apart{{}, request.max_threads()};
+  request.clear_max_threads();
+  return apart;
 }
+void PutBack(const Apart& apart, v1::VerifyProgramRequest& request) {
+  request.set_max_threads(apart.max_threads);
+}
+
 const std::string& ModelIn(const v1::GenerateProgramRequest& request) {
   return request.job().source().model_sha256();
 }
 const std::string& ModelIn(const v1::VerifyProgramRequest& request) {
   return request.source().model_sha256();
+}
+
+// What an answer depends on, but for its caller: the method, the request without its Apart, the findings of
+// the model that it names, and the programs that make the answer. The bytes of the request are counted as in
+// flight while they are hashed.
+template <class Request>
+absl::StatusOr<std::string> AnswerDigest(ServerEnv* env, const std::string& path, const std::string& caller,
+                                         Request& request) {
+  Apart apart = TakeApart(request);
+  PM_ASSIGN_OR_RETURN(const InFlight::Hold held, env->in_flight.Take(request.ByteSizeLong()));
+  Canonical digest;
+  digest.Add("patchmill answer 1").Add(path).Add(ServerVersion()).Add(ImporterStamp());
+  digest.Add(Sha256(request.SerializeAsString()));
+  digest.Add(FindingsOfStored(env->store, {Stored::kModel, caller, ModelIn(request)}));
+  PutBack(std::move(apart), request);
+  return digest.Digest();
 }
 
 bool SendKept(RawCall& raw, const Messages& messages) {
@@ -211,7 +233,8 @@ RawMethod Stream(ServerEnv* env, std::string path, StreamHandler<Request, Respon
             auto owned = std::make_shared<Owned<Request>>();
             PM_ASSIGN_OR_RETURN(owned->held, ParseRequest(raw, env->in_flight, owned->request));
             LabelCall(owned->request, raw);
-            StoreKey key{Stored::kAnswer, raw.caller(), AnswerDigest(method, KeyBytes(owned->request))};
+            StoreKey key{Stored::kAnswer, raw.caller(), {}};
+            PM_ASSIGN_OR_RETURN(key.digest, AnswerDigest(env, method, key.caller, owned->request));
             if (const auto kept = env->answers.Find(key, ModelIn(owned->request))) {
               owned.reset();
               return SendKept(raw, *kept) ? absl::OkStatus() : Gone();

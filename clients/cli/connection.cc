@@ -62,7 +62,8 @@ std::string Worded(const grpc::Status& status) {
 std::string ServerTrouble(const grpc::Status& status, const std::string& server) {
   const std::string& message = status.error_message();
   const std::string reason = InfoOf(status).reason();
-  if (reason == "DRAINING" || reason == "TOO_MANY_JOBS" || reason == "TOO_MANY_BYTES")
+  if (reason == "DRAINING" || reason == "TOO_MANY_JOBS" || reason == "TOO_MANY_BYTES" ||
+      reason == "TOO_MUCH_MEMORY")
     return fmt::format("{}: {}", server, message);
   if (status.error_code() == grpc::StatusCode::CANCELLED)
     return fmt::format("{} ended the call: it shuts down, or the answer was read too slowly", server);

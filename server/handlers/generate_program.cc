@@ -54,7 +54,7 @@ Response MakeAccepted(const PreparedJob& prepared, const Outputs& outputs, std::
   return response;
 }
 
-// What the job will take, as far as its model shows; at most what there is for jobs.
+// Bytes that the job will take, as far as its model shows.
 std::int64_t EstimatedMemory(const PreparedJob& prepared, const ServerEnv& env) {
   const double bytes =
       static_cast<double>(EstimateMemory(prepared.model.model, prepared.job)) * env.options.estimate_factor;

@@ -97,6 +97,8 @@ absl::Status HandleUploadModel(const Call& call, const NextMessage<v1::UploadMod
           fmt::format("the model has not come within {} s", limits::kUploadSeconds));
     }
   }
+  PM_ASSIGN_OR_RETURN(more, next(message));
+  if (more) return WrongField("chunk", "follows the last byte of the file; start.size_bytes states fewer");
   if (Sha256(received.bytes()) != start.content_sha256())
     return WrongField("start.content_sha256", "is not that of the bytes that have come; send them again");
 

@@ -131,6 +131,8 @@ TEST_F(UploadModelTest, AWrongUploadSaysWhatIsWrong) {
               RpcStatusIs(StatusCode::INVALID_ARGUMENT, HasSubstr("chunk is missing: 100 of ")));
   EXPECT_THAT(Upload(embedded_, start, {content_ + "x"}).status,
               RpcStatusIs(StatusCode::INVALID_ARGUMENT, HasSubstr("must have at most")));
+  EXPECT_THAT(Upload(embedded_, start, {content_, "x"}).status,
+              RpcStatusIs(StatusCode::INVALID_ARGUMENT, HasSubstr("follows the last byte")));
   std::string damaged = content_;
   damaged[10] ^= 1;
   EXPECT_THAT(Upload(embedded_, start, {damaged}).status,

@@ -39,6 +39,7 @@ const adviceOfReason: Record<string, string> = {
   MODEL_INVALID: "Repair the model. The findings of the part say what is wrong.",
   TOO_MANY_JOBS: "Wait until another job has ended, then start again.",
   TOO_MANY_BYTES: "Wait until other calls have ended, then try again.",
+  TOO_MUCH_MEMORY: "Wait until other jobs have ended, then start again.",
   DRAINING: "patchmilld shuts down. Start it again, then try again.",
   REGIONS_STALE: "Take the changes to regions back, and choose them anew.",
   DEADLINE_EXCEEDED: "Take a larger scallop or less of the part, or start patchmilld with --max-job-seconds.",
