@@ -1,4 +1,4 @@
-// Source: SINUMERIK 840D sl / 828D, programming manuals "Fundamentals" and "Job planning", lists of
+// Described in: SINUMERIK 840D sl / 828D, programming manuals "Fundamentals" and "Job planning", lists of
 // instructions.
 #include "cam/post/siemens_names.h"
 

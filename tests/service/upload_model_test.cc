@@ -199,6 +199,27 @@ TEST_F(UploadModelTest, AKeptAnswerIsTheSame) {
   EXPECT_EQ(first.Report()->SerializeAsString(), second.Report()->SerializeAsString());
 }
 
+// The same values, first from a file without a unit, then with its unit stated: the answer that was kept with
+// the findings of the first upload is not given for the second.
+TEST_F(UploadModelTest, FindingsAreThoseOfTheNewestUpload) {
+  v1::UploadStart start = StartOf(content_, "bpt");
+  const Uploaded unitless = Upload(embedded_, start, {content_});
+  v1::GenerateProgramRequest request = TeapotRequest(content_);
+  request.mutable_job()->mutable_source()->set_model_sha256(unitless.response.model_sha256());
+  const auto assumes = [&] {
+    const auto stream = embedded_.Generate(request);
+    EXPECT_TRUE(stream.status.ok()) << stream.status.error_message();
+    const auto& findings = stream.Report()->diagnostics();
+    return std::any_of(findings.begin(), findings.end(),
+                       [](const v1::Diagnostic& d) { return d.code() == "UNIT_ASSUMED"; });
+  };
+  EXPECT_TRUE(assumes());
+  start.set_length_unit(v1::LENGTH_UNIT_MILLIMETER);
+  const Uploaded stated = Upload(embedded_, start, {content_});
+  EXPECT_EQ(stated.response.model_sha256(), unitless.response.model_sha256());
+  EXPECT_FALSE(assumes());
+}
+
 // Two at once: one job, one answer.
 TEST_F(UploadModelTest, ARunningJobIsJoined) {
   v1::GenerateProgramRequest request = TeapotRequest(content_);

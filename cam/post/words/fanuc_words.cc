@@ -1,5 +1,6 @@
-// Sources: FANUC Series 30i/31i/32i-MODEL B, operator's manuals B-64484EN (common) and B-64484EN-2 (machining
-// centers), chapter "Preparatory function"; AI contour control: the same, "High-speed cutting functions".
+// Described in: FANUC Series 30i/31i/32i-MODEL B, operator's manuals B-64484EN (common) and B-64484EN-2
+// (machining centers), chapter "Preparatory function"; AI contour control: the same, "High-speed cutting
+// functions".
 #include "cam/post/word_rules.h"
 
 namespace patchmill {

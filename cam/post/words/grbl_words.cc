@@ -1,5 +1,5 @@
-// Source: GRBL wiki, "Grbl v1.1 Commands" and the list of supported G-codes; the wiki of grblHAL, "Supported
-// G-codes".
+// Described in: GRBL wiki, "Grbl v1.1 Commands" and the list of supported G-codes; the wiki of grblHAL,
+// "Supported G-codes".
 #include "cam/post/word_rules.h"
 
 namespace patchmill {

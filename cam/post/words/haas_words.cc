@@ -1,4 +1,4 @@
-// Source: Haas "Mill - Operator's Manual" (NGC), chapters "G-codes", "M-codes" and "Settings".
+// Described in: Haas "Mill - Operator's Manual" (NGC), chapters "G-codes", "M-codes" and "Settings".
 #include "cam/post/word_rules.h"
 
 namespace patchmill {

@@ -1,4 +1,4 @@
-// Sources: HEIDENHAIN TNC 640 and iTNC 530, user's manuals for conversational programming, chapter
+// Described in: HEIDENHAIN TNC 640 and iTNC 530, user's manuals for conversational programming, chapter
 // "Miscellaneous functions".
 #include "cam/post/word_rules.h"
 

@@ -1,4 +1,4 @@
-// Source: LinuxCNC documentation, "G-Codes" and "M-Codes" (docs/src/gcode).
+// Described in: LinuxCNC documentation, "G-Codes" and "M-Codes" (docs/src/gcode).
 #include "cam/post/word_rules.h"
 
 namespace patchmill {

@@ -1,5 +1,5 @@
-// Sources: ArtSoft "Using Mach3Mill", chapter 10 (Mach 3 G- and M-code language reference); NewFangled
-// Solutions "Mach4 Mill G-Code Reference".
+// Described in: ArtSoft "Using Mach3Mill", chapter 10 (Mach 3 G- and M-code language reference);
+// NewFangled Solutions "Mach4 Mill G-Code Reference".
 #include "cam/post/word_rules.h"
 
 namespace patchmill {

@@ -1,5 +1,5 @@
-// Sources: SINUMERIK 840D sl / 828D, programming manuals "Fundamentals" (G groups in its appendix) and "Job
-// planning".
+// Described in: SINUMERIK 840D sl / 828D, programming manuals "Fundamentals" (G groups in its appendix)
+// and "Job planning".
 #include "cam/post/word_rules.h"
 
 namespace patchmill {
