@@ -50,9 +50,8 @@ export function forward(router: ConnectRouter, transport: Transport, backend: st
             throw clearError(error, backend);
           }
         };
-      } else {
-        throw new Error(`${method.name} takes a stream of requests, which browsers cannot send.`);
       }
+      // A browser cannot send a stream of requests. Such a method is not there (HTTP 404 or 415).
     }
     router.service(service, routes as Partial<ServiceImpl<DescService>>);
   }

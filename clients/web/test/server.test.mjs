@@ -78,6 +78,13 @@ test("methods of all three services answer", async () => {
   assert.ok(regions.regions.length > 0);
 });
 
+test("a method that takes a stream is not there, and the others of its service are", async () => {
+  const path = "/patchmill.v1.ModelService/";
+  const call = (method) => fetch(`${web.url.replace(/\/$/, "")}${path}${method}`, { method: "POST", headers: { "content-type": "application/proto" }, body: new Uint8Array() });
+  assert.ok([404, 415].includes((await call("UploadModel")).status));
+  assert.ok(![404, 415].includes((await call("CheckModel")).status));
+});
+
 test("an error keeps its code, its message and its fields", async () => {
   const content = new Uint8Array(await readFile(example("bonnet.json")));
   const job = { source: { source: { case: "file", value: { content } } }, operations: [{ scallopMm: -1, toleranceMm: 0.01 }] };
