@@ -15,6 +15,7 @@
 #include "server/job_progress.h"
 #include "server/limits.h"
 #include "server/lower_priority.h"
+#include "server/process_memory.h"
 
 namespace patchmill {
 namespace {
@@ -99,8 +100,11 @@ absl::StatusOr<Places::Ticket> Enter(Places& places, const Call& call, const Wor
 // The memory of one call, and its share of the ledger.
 class Memory {
  public:
-  explicit Memory(MemoryLedger& ledger)
-      : ledger_(ledger), budget_(0, [this](std::int64_t bytes) { return Take(bytes); }) {}
+  // `process_limit`: bytes that the whole process may have.
+  Memory(MemoryLedger& ledger, std::int64_t process_limit)
+      : ledger_(ledger),
+        process_limit_(process_limit),
+        budget_(0, [this](std::int64_t bytes) { return Take(bytes); }) {}
   ~Memory() { ledger_.Release(taken_); }
   Memory(const Memory&) = delete;
   Memory& operator=(const Memory&) = delete;
@@ -123,15 +127,19 @@ class Memory {
 
  private:
   bool Take(std::int64_t bytes) {
-    if (!ledger_.Take(bytes)) {
-      needed_ = std::max(needed_, budget_.granted() + bytes);
-      return false;
+    if (ledger_.Take(bytes)) {
+      if (ProcessHasRoom(bytes, process_limit_)) {
+        taken_ += bytes;
+        return true;
+      }
+      ledger_.Release(bytes);
     }
-    taken_ += bytes;
-    return true;
+    needed_ = std::max(needed_, budget_.granted() + bytes);
+    return false;
   }
 
   MemoryLedger& ledger_;
+  const std::int64_t process_limit_;
   std::int64_t taken_ = 0, needed_ = 0;  // the budget asks one call at a time
   MemoryBudget budget_;
 };
@@ -140,7 +148,7 @@ enum class Priority { kNormal, kLow };
 
 absl::Status RunInThread(const Call& call, const Work& work, JobProgress& progress, Priority priority,
                          const std::function<absl::Status(const RunContext&)>& body) {
-  Memory memory(call.env->memory);
+  Memory memory(call.env->memory, call.env->shares.limit);
   PM_RETURN_IF_ERROR(memory.Start(work.memory_bytes));
   Board board;
   RunContext run(Threads(call.env->options.threads, work.max_threads));

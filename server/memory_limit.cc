@@ -62,7 +62,7 @@ std::int64_t DefaultMemoryLimit(const std::string& root) {
 MemoryShares ShareMemory(std::int64_t limit, std::int64_t in_flight, std::int64_t store) {
   constexpr std::int64_t kProgram = std::int64_t{64} << 20;  // the program, its threads and gRPC
   const std::int64_t rest = std::max<std::int64_t>(limit - kProgram, 0);
-  MemoryShares shares;
+  MemoryShares shares{.limit = limit};
   shares.in_flight = std::min(in_flight, rest / 4);
   shares.store = std::min(store, rest / 4);
   shares.jobs = (rest - shares.in_flight - shares.store) / 5 * 4;

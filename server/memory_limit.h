@@ -13,6 +13,7 @@ std::int64_t DefaultMemoryLimit(const std::string& root = "/");
 
 // Shares of a limit on the memory of the whole process, bytes.
 struct MemoryShares {
+  std::int64_t limit = 0;      // what is shared out
   std::int64_t in_flight = 0;  // requests and answers
   std::int64_t store = 0;
   std::int64_t jobs = 0;  // what calls take to do their work
