@@ -481,9 +481,11 @@ absl::Status KeepModel(const LoadedModel& loaded, const v1::ModelSource& source,
     stored.network = network.message.SerializeAsString();
   }
   const std::size_t bytes = MemoryOf(loaded.model) + stored.network.size();
-  access.store->Put<StoredModel>({Stored::kModel, access.caller, loaded.digest},
-                                 std::make_shared<const StoredModel>(std::move(stored)), bytes);
-  return absl::OkStatus();
+  if (access.store->Put<StoredModel>({Stored::kModel, access.caller, loaded.digest},
+                                     std::make_shared<const StoredModel>(std::move(stored)), bytes))
+    return absl::OkStatus();
+  return LimitError("stored_model_bytes", static_cast<double>(access.store->limit_bytes()),
+                    static_cast<double>(bytes), "patchmilld --store-mib sets the limit");
 }
 
 std::string FindingsOfStored(Store& store, const StoreKey& key) {

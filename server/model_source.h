@@ -59,7 +59,8 @@ struct StoredModel {
 };
 // The findings_digest of the model with this key; empty if the store has none.
 std::string FindingsOfStored(Store& store, const StoreKey& key);
-// Keeps a loaded model without faults. `source` is what it was loaded from.
+// Keeps a loaded model without faults. `source` is what it was loaded from. RESOURCE_EXHAUSTED
+// LIMIT_EXCEEDED if the store is too small for it.
 absl::Status KeepModel(const LoadedModel& loaded, const v1::ModelSource& source, const RunContext& run,
                        const ModelAccess& access);
 

@@ -10,7 +10,7 @@ void Store::Erase(Entries::iterator entry) {
   entries_.erase(entry);
 }
 
-void Store::PutAny(const StoreKey& key, std::any value, std::size_t bytes, std::string from) {
+bool Store::PutAny(const StoreKey& key, std::any value, std::size_t bytes, std::string from) {
   constexpr std::size_t kEntryBytes = 500;  // of the entry itself
   bytes += kEntryBytes;
   Entries forgotten;  // destroyed without the lock
@@ -20,7 +20,7 @@ void Store::PutAny(const StoreKey& key, std::any value, std::size_t bytes, std::
     forgotten.splice(forgotten.end(), entries_, at->second);
     by_key_.erase(at);
   }
-  if (bytes > limit_ / 4) return;
+  if (bytes > (key.kind == Stored::kModel ? limit_ : limit_ / 4)) return false;
   while (bytes_ + bytes > limit_) {
     const auto last = std::prev(entries_.end());
     bytes_ -= last->bytes;
@@ -31,6 +31,7 @@ void Store::PutAny(const StoreKey& key, std::any value, std::size_t bytes, std::
   entries_.push_front({key, std::move(value), bytes, std::move(from)});
   by_key_.emplace(key, entries_.begin());
   bytes_ += bytes;
+  return true;
 }
 
 std::any Store::FindAny(const StoreKey& key) {

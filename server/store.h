@@ -29,12 +29,12 @@ class Store {
  public:
   explicit Store(std::size_t limit_bytes) : limit_(limit_bytes) {}
 
-  // Keeps a value of about `bytes`, in place of one with the same key. A value above a quarter of the limit
-  // is not kept: it would drive out all others. `from` is the digest of the model that an answer was made
-  // from.
+  // Keeps a value of about `bytes`, in place of one with the same key. False if it is too large: a model may
+  // take the whole limit, any other value a quarter of it. `from` is the digest of the model that an answer
+  // was made from.
   template <class T>
-  void Put(const StoreKey& key, std::shared_ptr<const T> value, std::size_t bytes, std::string from = {}) {
-    PutAny(key, std::move(value), bytes, std::move(from));
+  bool Put(const StoreKey& key, std::shared_ptr<const T> value, std::size_t bytes, std::string from = {}) {
+    return PutAny(key, std::move(value), bytes, std::move(from));
   }
   // The value with this key, or null. It counts as used.
   template <class T>
@@ -51,6 +51,7 @@ class Store {
     std::size_t found = 0, missed = 0, forgotten = 0;  // since the start
   };
   Figures figures() const;
+  std::size_t limit_bytes() const { return limit_; }
 
  private:
   struct Entry {
@@ -61,7 +62,7 @@ class Store {
   };
   using Entries = std::list<Entry>;
 
-  void PutAny(const StoreKey& key, std::any value, std::size_t bytes, std::string from);
+  bool PutAny(const StoreKey& key, std::any value, std::size_t bytes, std::string from);
   std::any FindAny(const StoreKey& key);
   void Erase(Entries::iterator entry);
 

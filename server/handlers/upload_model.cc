@@ -1,5 +1,6 @@
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -37,20 +38,15 @@ absl::Status CheckStart(const v1::UploadStart& start) {
                     static_cast<double>(start.size_bytes()));
 }
 
-// The bytes of a file as they come.
+// The bytes of a file as they come. They are counted as they come, too: a client may state a size and send
+// nothing. Room that nobody has written to takes no memory.
 class Received {
  public:
-  explicit Received(InFlight& in_flight) : in_flight_(in_flight) {}
+  Received(InFlight& in_flight, std::size_t size) : in_flight_(in_flight) { bytes_.reserve(size); }
 
-  // Room is made, and counted, as bytes come: a client may state a size and send nothing.
   absl::Status Add(std::string_view chunk) {
-    if (bytes_.size() + chunk.size() > room_) {
-      const std::size_t room = std::max(2 * room_, bytes_.size() + chunk.size());
-      PM_ASSIGN_OR_RETURN(InFlight::Hold hold, in_flight_.Take(room));
-      bytes_.reserve(room);
-      held_ = std::move(hold);
-      room_ = room;
-    }
+    PM_ASSIGN_OR_RETURN(InFlight::Hold hold, in_flight_.Take(chunk.size()));
+    holds_.push_back(std::move(hold));
     bytes_ += chunk;
     return absl::OkStatus();
   }
@@ -58,8 +54,7 @@ class Received {
 
  private:
   InFlight& in_flight_;
-  InFlight::Hold held_;
-  std::size_t room_ = 0;
+  std::vector<InFlight::Hold> holds_;
   std::string bytes_;
 };
 
@@ -75,7 +70,7 @@ absl::Status HandleUploadModel(const Call& call, const NextMessage<v1::UploadMod
   PM_RETURN_IF_ERROR(CheckStart(start));
   const auto size = static_cast<std::size_t>(start.size_bytes());
 
-  Received received(call.env->in_flight);
+  Received received(call.env->in_flight, size);
   const auto begin = RunContext::Clock::now();
   while (received.bytes().size() < size) {
     PM_ASSIGN_OR_RETURN(more, next(message));

@@ -39,12 +39,22 @@ TEST(Store, ForgetsWhatWasUsedLongestAgo) {
   EXPECT_EQ(store.figures().forgotten, 1u);
 }
 
-TEST(Store, AValueAboveAQuarterIsNotKeptAndItsOldOneIsGone) {
+TEST(Store, AnAnswerAboveAQuarterIsNotKeptAndItsOldOneIsGone) {
   Store store(40'000);
-  store.Put<std::string>(Model("a"), Text("small"), 1'000);
-  store.Put<std::string>(Model("a"), Text("large"), 20'000);
-  EXPECT_EQ(store.Find<std::string>(Model("a")), nullptr);
+  const StoreKey key{Stored::kAnswer, "", "a"};
+  EXPECT_TRUE(store.Put<std::string>(key, Text("small"), 1'000));
+  EXPECT_FALSE(store.Put<std::string>(key, Text("large"), 20'000));
+  EXPECT_EQ(store.Find<std::string>(key), nullptr);
   EXPECT_EQ(store.figures().bytes, 0u);
+}
+
+TEST(Store, AModelMayTakeAllOfIt) {
+  Store store(40'000);
+  EXPECT_TRUE(store.Put<std::string>(Model("a"), Text("a"), 30'000));
+  EXPECT_TRUE(store.Put<std::string>(Model("b"), Text("b"), 30'000));
+  EXPECT_EQ(store.Find<std::string>(Model("a")), nullptr);
+  EXPECT_FALSE(store.Put<std::string>(Model("c"), Text("c"), 40'001));
+  EXPECT_NE(store.Find<std::string>(Model("b")), nullptr);
 }
 
 TEST(Store, ANewValueReplacesTheOldOne) {

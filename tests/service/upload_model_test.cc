@@ -161,6 +161,33 @@ TEST_F(UploadModelTest, AModelThatCannotBeUsedIsNotKept) {
   EXPECT_EQ(uploaded.response.diagnostics(0).severity(), v1::SEVERITY_ERROR);
 }
 
+// A file that fits the limit comes through, though no single message could hold it.
+TEST_F(UploadModelTest, AFileMayBeLargerThanAMessage) {
+  const std::string json =
+      R"({"lengthUnit":"LENGTH_UNIT_MILLIMETER","patches":[{"bezier":{"degreeU":1,"degreeV":1,)"
+      R"("points":[0,0,0,0,9,0,9,0,0,9,9,1]}}]})";
+  const std::string large = json + std::string(std::size_t{140} << 20, ' ');
+  const Uploaded uploaded = Upload(embedded_, StartOf(large, "json"), InChunks(large, std::size_t{4} << 20));
+  ASSERT_TRUE(uploaded.status.ok()) << uploaded.status.error_message();
+  EXPECT_EQ(uploaded.response.patch_count(), 1);
+}
+
+// A model is never taken and then not there.
+TEST(UploadModel, AStoreThatIsTooSmallIsNamed) {
+  ServerOptions options;
+  options.listen = "127.0.0.1:0";
+  options.log_requests = false;
+  options.store_mib = 0;
+  auto started = StartServer(options);
+  ASSERT_TRUE(started.ok());
+  const std::string target = "127.0.0.1:" + std::to_string((*started)->port());
+  const Embedded embedded(*std::move(started), target);
+  const std::string content = testing::ReadRepositoryFile("examples/teapot.bpt");
+  const grpc::Status status = Upload(embedded, StartOf(content, "bpt"), {content}).status;
+  EXPECT_THAT(status, RpcStatusIs(StatusCode::RESOURCE_EXHAUSTED, HasSubstr("--store-mib")));
+  EXPECT_EQ(InfoOf(status).limit(), "stored_model_bytes");
+}
+
 // A network can be edited by its digest, and a model of patches cannot.
 TEST_F(UploadModelTest, ANetworkIsKeptAsOne) {
   const std::string network = testing::ReadRepositoryFile("examples/mouse.json");
@@ -206,18 +233,20 @@ TEST_F(UploadModelTest, FindingsAreThoseOfTheNewestUpload) {
   const Uploaded unitless = Upload(embedded_, start, {content_});
   v1::GenerateProgramRequest request = TeapotRequest(content_);
   request.mutable_job()->mutable_source()->set_model_sha256(unitless.response.model_sha256());
-  const auto assumes = [&] {
+  // The model is small beside this ball. That is suspicious as long as nobody has stated its unit.
+  request.mutable_job()->mutable_operations(0)->mutable_tool()->mutable_ball_end()->set_diameter_mm(50.0);
+  const auto suspects_unit = [&] {
     const auto stream = embedded_.Generate(request);
     EXPECT_TRUE(stream.status.ok()) << stream.status.error_message();
     const auto& findings = stream.Report()->diagnostics();
     return std::any_of(findings.begin(), findings.end(),
-                       [](const v1::Diagnostic& d) { return d.code() == "UNIT_ASSUMED"; });
+                       [](const v1::Diagnostic& d) { return d.code() == "SUSPICIOUS_SIZE"; });
   };
-  EXPECT_TRUE(assumes());
+  EXPECT_TRUE(suspects_unit());
   start.set_length_unit(v1::LENGTH_UNIT_MILLIMETER);
   const Uploaded stated = Upload(embedded_, start, {content_});
   EXPECT_EQ(stated.response.model_sha256(), unitless.response.model_sha256());
-  EXPECT_FALSE(assumes());
+  EXPECT_FALSE(suspects_unit());
 }
 
 // Two at once: one job, one answer.
