@@ -79,16 +79,6 @@ absl::Status Fault(const std::string& path) {
   return absl::FailedPreconditionError(fmt::format("cannot write {}: {}", path, std::strerror(errno)));
 }
 
-bool WriteAll(int file, std::string_view bytes) {
-  while (!bytes.empty()) {
-    const ssize_t n = write(file, bytes.data(), bytes.size());
-    if (n < 0 && errno == EINTR) continue;
-    if (n <= 0) return false;
-    bytes.remove_prefix(static_cast<std::size_t>(n));
-  }
-  return true;
-}
-
 // While this object lives, a reader that has gone is an error of write, not the end of the process.
 class NoPipeSignal {
  public:

@@ -31,16 +31,6 @@ absl::Status Fault(const std::string& path) {
   return absl::FailedPreconditionError(fmt::format("cannot write {}: {}", path, std::strerror(errno)));
 }
 
-bool WriteAll(int file, std::string_view bytes) {
-  while (!bytes.empty()) {
-    const ssize_t n = write(file, bytes.data(), bytes.size());
-    if (n < 0 && errno == EINTR) continue;
-    if (n <= 0) return false;
-    bytes.remove_prefix(static_cast<std::size_t>(n));
-  }
-  return true;
-}
-
 // Opens a new file with a short name of its own in the folder of `target`.
 int OpenNew(const std::string& target, std::string& path) {
   static std::atomic<int> number{0};
@@ -72,6 +62,16 @@ void RemoveLocked(const std::string& path) {
 }
 
 }  // namespace
+
+bool WriteAll(int file, std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t n = write(file, bytes.data(), bytes.size());
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) return false;
+    bytes.remove_prefix(static_cast<std::size_t>(n));
+  }
+  return true;
+}
 
 absl::StatusOr<TemporaryFile> WriteTemporary(const std::string& target, std::string_view bytes) {
   TemporaryFile temporary{.path = {}, .target = target};

@@ -10,6 +10,9 @@
 
 namespace patchmill::cli {
 
+// Writes all bytes to a descriptor. False with errno if that fails.
+bool WriteAll(int file, std::string_view bytes);
+
 // A whole file beside its target.
 struct TemporaryFile {
   std::string path, target;
