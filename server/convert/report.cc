@@ -339,19 +339,23 @@ void FillFromVerifier(const VerifyReport& verify, const Vec3& zero, bool scallop
   report->set_steepest_descent_deg(Number(Degrees(verify.steepest_descent)));
 }
 
-// The search of a region may stop a twentieth above its deepest place (Region.deepest_leftover_mm), and the
-// verifier samples. Where both speak of the same area, each gets the larger figure. STRATEGY is left out:
-// there the region has an estimate of what a program would leave, and the verifier has what this program
-// leaves.
-void AgreeOnDepths(v1::Report& report) {
+// The search of a region may stop a twentieth above its deepest place (Region.deepest_leftover_mm), and
+// the verifier samples. The region of that reason on the patch of the verifier's deepest place, and the
+// part of the report, get the larger of the two figures. STRATEGY is left out: there the region has an
+// estimate of what a program would leave, and the verifier has what this program leaves. So are areas that
+// are selected in part.
+void AgreeOnDepths(const std::vector<Region>& regions, v1::Report& report) {
   for (v1::UnreachablePart& part : *report.mutable_unreachable()) {
     if (part.reason() == v1::UNREACHABLE_REASON_STRATEGY) continue;
+    const PatchId patch(part.deepest_at().patch_index());
     v1::Region* deepest = nullptr;
-    bool whole = true;  // all of it is selected
+    bool whole = true;  // all areas with this reason are selected
     for (v1::Region& region : *report.mutable_regions()) {
       if (region.unreachable_reason() != part.reason() || region.skipped()) continue;
       whole = whole && region.selected_area_mm2() == region.area_mm2();
-      if (deepest == nullptr || region.deepest_leftover_mm() > deepest->deepest_leftover_mm())
+      const std::vector<PatchId>& patches = regions[static_cast<std::size_t>(region.id())].patches;
+      const bool holds = std::binary_search(patches.begin(), patches.end(), patch);
+      if (holds && (deepest == nullptr || region.deepest_leftover_mm() > deepest->deepest_leftover_mm()))
         deepest = &region;
     }
     if (deepest == nullptr || !whole) continue;
@@ -394,7 +398,7 @@ v1::Report ToProto(const JobReport& from, const Job& job, const Resolved& resolv
     *report.add_regions() =
         ToProto(from.regions[id], from.choices[id], from.figures[id], zero, Detail::kFigures);
   }
-  AgreeOnDepths(report);
+  AgreeOnDepths(from.regions, report);
   AddDiagnostics(from.diagnostics, zero, report.mutable_diagnostics());
   for (const StageTime& stage : from.stages) {
     v1::Stage& to = *report.add_stages();
