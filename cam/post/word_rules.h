@@ -1,8 +1,8 @@
 // What G and M words beyond those of RS274 (gcode_modes.h) mean to the reader of programs: a table for each
 // control, as data. Other CAM systems write these words; posts of Patchmill need few of them.
 //
-// Each table names the manual that describes its words. The tables were written without these manuals at hand,
-// from general knowledge of the controls. No row has been compared with its page yet.
+// Each table names the manual that describes its words. The tables were written without these manuals at
+// hand, from general knowledge of the controls. No row has been compared with its page yet.
 #pragma once
 
 #include <optional>
