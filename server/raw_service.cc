@@ -5,6 +5,7 @@
 #include <exception>
 #include <mutex>
 #include <new>
+#include <optional>
 #include <system_error>
 #include <thread>
 #include <utility>
@@ -22,6 +23,12 @@
 
 namespace patchmill {
 namespace {
+
+// The same moment by the steady clock. No value: there is no deadline.
+std::optional<std::chrono::steady_clock::time_point> Steady(std::chrono::system_clock::time_point deadline) {
+  if (deadline == std::chrono::system_clock::time_point::max()) return std::nullopt;
+  return std::chrono::steady_clock::now() + (deadline - std::chrono::system_clock::now());
+}
 
 struct Shared {
   InFlight& in_flight;
@@ -68,7 +75,7 @@ class Reactor final : public grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::Byt
         shared_(shared),
         context_(context),
         begin_(std::chrono::steady_clock::now()),
-        deadline_(context->deadline()),
+        deadline_(Steady(context->deadline())),
         peer_(context->peer()),
         caller_(CallerOf(*context)),
         label_(method.path.substr(method.path.rfind('/') + 1)) {}
@@ -79,7 +86,7 @@ class Reactor final : public grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::Byt
     held_ = {};
   }
   const std::string& caller() const override { return caller_; }
-  std::chrono::system_clock::time_point deadline() const override { return deadline_; }
+  std::optional<std::chrono::steady_clock::time_point> deadline() const override { return deadline_; }
   bool Cancelled() const override { return cancelled_.load(); }
   void SetLabel(std::string label) override { label_ = std::move(label); }
 
@@ -241,7 +248,7 @@ class Reactor final : public grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::Byt
   Shared& shared_;
   grpc::CallbackServerContext* const context_;
   const std::chrono::steady_clock::time_point begin_;
-  const std::chrono::system_clock::time_point deadline_;
+  const std::optional<std::chrono::steady_clock::time_point> deadline_;
   const std::string peer_, caller_;
   std::string label_;
   std::shared_ptr<Reactor> self_;

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,8 +31,9 @@ class RawCall {
   virtual bool ReadNext() = 0;
   // Who calls: the name in its certificate. Empty where nobody says who he is.
   virtual const std::string& caller() const = 0;
-  virtual std::chrono::system_clock::time_point deadline() const = 0;  // max() if there is none
-  virtual bool Cancelled() const = 0;                                  // from any thread
+  // When the caller's time is up. By the steady clock: the time of day may jump while a call runs.
+  virtual std::optional<std::chrono::steady_clock::time_point> deadline() const = 0;
+  virtual bool Cancelled() const = 0;  // from any thread
   // Sends a message and waits until it is on its way. False: the other side is gone, or has not taken the
   // message in time.
   virtual bool Write(const google::protobuf::Message& response) = 0;

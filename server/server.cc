@@ -123,11 +123,13 @@ class GrpcServer final : public RunningServer {
       std::this_thread::sleep_for(std::chrono::milliseconds(limits::kCancelPollMs));
     env_.stopped.store(true);
     env_.running.StopAll(DrainingError());
-    const auto last = std::chrono::system_clock::now() + std::chrono::milliseconds(limits::kAbandonMs);
-    while (Busy() && std::chrono::system_clock::now() < last)
+    const auto last = std::chrono::steady_clock::now() + std::chrono::milliseconds(limits::kAbandonMs);
+    while (Busy() && std::chrono::steady_clock::now() < last)
       std::this_thread::sleep_for(std::chrono::milliseconds(5));
     if (listener_) listener_->Stop();
-    server_->Shutdown(last);
+    server_->Shutdown(std::chrono::system_clock::now() +
+                      std::chrono::duration_cast<std::chrono::system_clock::duration>(
+                          std::max(last - std::chrono::steady_clock::now(), std::chrono::nanoseconds(0))));
     server_->Wait();
   }
 
@@ -208,6 +210,7 @@ int Serve(const ServerOptions& options) {
   sigaddset(&signals, SIGTERM);
   sigaddset(&signals, SIGINT);
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+  std::signal(SIGXFSZ, SIG_IGN);  // a file of the cache that grows beyond its limit is an error of write
 
   LowerPriorityOfWorkers();
   spdlog::set_default_logger(spdlog::stderr_logger_mt("patchmill"));

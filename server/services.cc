@@ -31,10 +31,7 @@ Call MakeCall(ServerEnv* env, const RawCall& raw) {
   call.env = env;
   call.caller = raw.caller();
   call.cancelled = [&raw] { return raw.Cancelled(); };
-  const auto deadline = raw.deadline();
-  if (deadline != std::chrono::system_clock::time_point::max()) {
-    call.deadline = RunContext::Clock::now() + (deadline - std::chrono::system_clock::now());
-  }
+  call.deadline = raw.deadline();
   return call;
 }
 
@@ -127,7 +124,7 @@ absl::Status Follow(RawCall& raw, Answer::Reader& reader) {
       return *end;
     }
     if (raw.Cancelled()) return absl::CancelledError("cancelled by the caller");
-    if (std::chrono::system_clock::now() >= deadline)
+    if (deadline && std::chrono::steady_clock::now() >= *deadline)
       return absl::DeadlineExceededError("the deadline has passed");
   }
 }

@@ -8,7 +8,8 @@ if(PATCHMILL_SERVICE)
                                                    PATCHMILL_BIN="${CMAKE_BINARY_DIR}/bin")
   # These measure times or start processes; a neighbour would spoil them.
   foreach(test service_call_test service_generate_program_test service_cli_test service_cli_files_test
-               service_daemon_limits_test service_daemon_memory_test service_daemon_idle_test service_daemon_places_test)
+               service_daemon_limits_test service_daemon_memory_test service_daemon_idle_test service_daemon_places_test
+               service_daemon_kills_test)
     if(TEST ${test})  # the tsan preset has only some
       set_tests_properties(${test} PROPERTIES RUN_SERIAL TRUE)
     endif()
