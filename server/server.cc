@@ -196,7 +196,6 @@ absl::StatusOr<std::unique_ptr<RunningServer>> StartServer(const ServerOptions& 
 
 std::unique_ptr<RunningServer> StartEmbeddedServer(ServerOptions options) {
   options.log_requests = false;
-  options.store_mib = 0;  // its only client asks once
   auto server = std::make_unique<GrpcServer>(options, nullptr, nullptr);
   PM_CHECK(server->started());
   return server;

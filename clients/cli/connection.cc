@@ -115,13 +115,14 @@ absl::StatusOr<std::shared_ptr<grpc::ChannelCredentials>> Credentials(const Comm
 
 }  // namespace
 
-absl::StatusOr<Connection> Connect(const CommonOptions& options) {
+absl::StatusOr<Connection> Connect(const CommonOptions& options, KeepModels keep) {
   Connection connection;
   if (options.server.empty()) {
     ServerOptions server;
     server.threads = options.threads;
     server.max_job_seconds = 7 * 86400.0;  // the machine is the user's own; --timeout decides
     server.max_in_flight_mib = 4096;
+    server.store_mib = keep == KeepModels::kYes ? 4096 : 0;  // the only client asks once
     connection.embedded = StartEmbeddedServer(server);
     connection.channel = connection.embedded->InProcessChannel();
     return connection;
@@ -178,8 +179,10 @@ int ExitStatus(const absl::Status& status) {
   }
 }
 
+bool FitsMessage(std::size_t bytes) { return bytes <= kMaxMessageBytes; }
+
 absl::Status CheckRequestSize(std::size_t bytes) {
-  if (bytes <= kMaxMessageBytes) return absl::OkStatus();
+  if (FitsMessage(bytes)) return absl::OkStatus();
   return absl::InvalidArgumentError(fmt::format("the request has {:.1f} MiB; the limit is {} MiB",
                                                 static_cast<double>(bytes) / (1 << 20),
                                                 kMaxMessageBytes >> 20));

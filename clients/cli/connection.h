@@ -29,7 +29,9 @@ struct Connection {
   std::unique_ptr<RunningServer> embedded;
   std::shared_ptr<grpc::Channel> channel;
 };
-absl::StatusOr<Connection> Connect(const CommonOptions& options);
+// Whether the server inside this process keeps models that are uploaded. They take memory.
+enum class KeepModels { kNo, kYes };
+absl::StatusOr<Connection> Connect(const CommonOptions& options, KeepModels keep = KeepModels::kNo);
 
 // The context of a call. It has the deadline, and an interrupt cancels it while this object lives. It has to
 // end before results are written.
@@ -50,7 +52,9 @@ absl::Status FromGrpc(const grpc::Status& status, const CommonOptions& options, 
 // 0 for OK; 2 for wrong usage and unreadable input; 1 for any other error.
 int ExitStatus(const absl::Status& status);
 
-// INVALID_ARGUMENT if a request is too large for the wire.
+// Whether one message of the wire can have so many bytes.
+bool FitsMessage(std::size_t bytes);
+// INVALID_ARGUMENT if it cannot.
 absl::Status CheckRequestSize(std::size_t bytes);
 
 }  // namespace patchmill::cli

@@ -32,7 +32,7 @@ const std::vector<NamedInput>& NamedInputs() { return Named(); }
 
 const std::vector<std::string>& FilesRead() { return Read(); }
 
-absl::StatusOr<std::string> ReadWholeFile(const std::string& name) {
+absl::StatusOr<std::string> ReadWholeFile(const std::string& name, std::size_t limit) {
   const std::string path = name == "-" ? "/dev/stdin" : name;
   Read().push_back(path);
   std::error_code error;
@@ -44,9 +44,9 @@ absl::StatusOr<std::string> ReadWholeFile(const std::string& name) {
   std::string bytes, block(std::size_t{1} << 20, '\0');
   while (in.read(block.data(), static_cast<std::streamsize>(block.size())) || in.gcount() > 0) {
     bytes.append(block, 0, static_cast<std::size_t>(in.gcount()));
-    if (bytes.size() > kMaxFileBytes) {
+    if (bytes.size() > limit) {
       return absl::InvalidArgumentError(
-          fmt::format("{} has more than {} MiB, the limit of a request", path, kMaxFileBytes >> 20));
+          fmt::format("{} has more than {} MiB, the limit of such a file", path, limit >> 20));
     }
   }
   if (in.bad()) return absl::InvalidArgumentError(fmt::format("cannot read {}", path));

@@ -9,11 +9,12 @@
 
 namespace patchmill::cli {
 
-inline constexpr std::size_t kMaxFileBytes = std::size_t{64} << 20;  // limit of a message on the wire
+inline constexpr std::size_t kMaxFileBytes = std::size_t{64} << 20;        // limit of a message on the wire
+inline constexpr std::size_t kMaxModelFileBytes = std::size_t{256} << 20;  // limit of an upload
 
 // The bytes of a file; "-" is the standard input. INVALID_ARGUMENT with the reason if it cannot be read or is
-// longer than kMaxFileBytes. Reading stops there.
-absl::StatusOr<std::string> ReadWholeFile(const std::string& name);
+// longer than `limit`. Reading stops there.
+absl::StatusOr<std::string> ReadWholeFile(const std::string& name, std::size_t limit = kMaxFileBytes);
 
 // All paths that ReadWholeFile has read. No result replaces one of these files (output_file.h).
 const std::vector<std::string>& FilesRead();

@@ -390,7 +390,7 @@ void AddReadingOptions(CLI::App& app, ReadingOptions& options) {
 }
 
 absl::StatusOr<v1::ModelSource> ReadModel(const std::string& path, const ReadingOptions& options) {
-  absl::StatusOr<std::string> bytes = ReadWholeFile(path);
+  absl::StatusOr<std::string> bytes = ReadWholeFile(path, kMaxModelFileBytes);
   if (!bytes.ok()) return bytes.status();
   NameModel(path);
   v1::ModelSource source;

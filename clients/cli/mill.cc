@@ -18,6 +18,7 @@
 #include "clients/cli/region_options.h"
 #include "clients/cli/scene.h"
 #include "clients/cli/text.h"
+#include "clients/cli/uploading.h"
 #include "patchmill/v1/toolpath_service.grpc.pb.h"
 
 namespace patchmill::cli {
@@ -104,7 +105,6 @@ absl::StatusOr<v1::GenerateProgramRequest> MakeRequest(const MillOptions& option
       request.add_outputs(output);
   }
   request.set_max_threads(options.common.threads);
-  if (const absl::Status fits = CheckRequestSize(request.ByteSizeLong()); !fits.ok()) return fits;
   return request;
 }
 
@@ -307,9 +307,9 @@ void PrintSummary(const MillOptions& options, const v1::Report& report) {
   }
 }
 
-absl::Status Receive(const CommonOptions& options, const v1::GenerateProgramRequest& request,
-                     InterruptWatch& watch, Received& received) {
-  absl::StatusOr<Connection> connection = Connect(options);
+absl::Status Receive(const CommonOptions& options, v1::GenerateProgramRequest request, InterruptWatch& watch,
+                     Received& received) {
+  absl::StatusOr<Connection> connection = ConnectFor(options, watch, request);
   if (!connection.ok()) return connection.status();
   CallScope call(options, watch);
   const auto stub = v1::ToolpathService::NewStub(connection->channel);
@@ -343,7 +343,7 @@ absl::Status Run(const MillOptions& options, InterruptWatch& watch) {
   received.scene.tolerance = options.operation.tolerance;
   received.scene.scallop = operation.scallop_mm();
   received.scene.steep_angle = options.operation.steep_angle;
-  if (const absl::Status whole = Receive(options.common, *request, watch, received); !whole.ok())
+  if (const absl::Status whole = Receive(options.common, *std::move(request), watch, received); !whole.ok())
     return whole;
   if (const absl::Status written = WriteFiles(options, *picture, received); !written.ok()) return written;
   PrintSummary(options, received.report);

@@ -19,6 +19,7 @@
 #include "clients/cli/scene.h"
 #include "clients/cli/text.h"
 #include "clients/cli/tool_file.h"
+#include "clients/cli/uploading.h"
 #include "patchmill/v1/toolpath_service.grpc.pb.h"
 
 namespace patchmill::cli {
@@ -123,7 +124,6 @@ absl::StatusOr<v1::VerifyProgramRequest> MakeRequest(const VerifyOptions& option
     request.add_outputs(v1::OUTPUT_PATH_BLOCKS);
   }
   request.set_max_threads(options.common.threads);
-  if (const absl::Status fits = CheckRequestSize(request.ByteSizeLong()); !fits.ok()) return fits;
   return request;
 }
 
@@ -218,9 +218,9 @@ void Take(v1::VerifyProgramResponse& response, VerifyAnswer& received) {
   received.complete = true;
 }
 
-absl::Status Receive(const CommonOptions& options, const v1::VerifyProgramRequest& request,
-                     InterruptWatch& watch, VerifyAnswer& received) {
-  absl::StatusOr<Connection> connection = Connect(options);
+absl::Status Receive(const CommonOptions& options, v1::VerifyProgramRequest request, InterruptWatch& watch,
+                     VerifyAnswer& received) {
+  absl::StatusOr<Connection> connection = ConnectFor(options, watch, request);
   if (!connection.ok()) return connection.status();
   CallScope call(options, watch);
   const auto stub = v1::ToolpathService::NewStub(connection->channel);
@@ -255,7 +255,7 @@ absl::Status Run(const VerifyOptions& options, InterruptWatch& watch) {
       !writable.ok())
     return writable;
   received.scene = BareScene(options, *request);
-  if (const absl::Status whole = Receive(options.common, *request, watch, received); !whole.ok())
+  if (const absl::Status whole = Receive(options.common, *std::move(request), watch, received); !whole.ok())
     return whole;
   if (report_file.wanted()) report_file.Set(Json(received.report));
   absl::StatusOr<std::string> made = std::string();

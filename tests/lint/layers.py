@@ -56,10 +56,11 @@ for name in SERVER:
 # The importer reads CAD files in a process of its own: geometry and the contract, nothing of planning or serving.
 for name in ["import", "import/occt"]:
     ALLOWED[name] = UP_TO_NETWORK | {"core/brep", "core/trim", "import", "import/occt"} | PROTO
-# Clients speak proto. The command line may start the server inside its own process, through these headers, and nothing else.
+# Clients speak proto. The command line may start the server inside its own process, through these headers, and nothing else. SHA-256
+# names what it uploads.
 ALLOWED["clients/render"] = set()
 ALLOWED["clients/cli"] = set(PROTO) | {"clients/render"}
-EXTRA_FILES = {"clients/cli": {"server/server.h", "server/options.h", "server/serve_flags.h"}}
+EXTRA_FILES = {"clients/cli": {"core/base/digest.h", "server/server.h", "server/options.h", "server/serve_flags.h"}}
 
 INCLUDE = re.compile(r'^\s*#\s*include\s+"([^"]+)"', re.M)
 CGAL = re.compile(r'^\s*#\s*include\s+[<"]CGAL/', re.M)

@@ -145,7 +145,7 @@ TEST_F(Cli, ModelsMayHaveAnyName) {
 TEST_F(Cli, EndlessFilesAreNotReadToTheEnd) {
   const Finished run = Mill("/dev/zero");
   EXPECT_EQ(run.status, 2);
-  EXPECT_THAT(run.err, HasSubstr("more than 64 MiB"));
+  EXPECT_THAT(run.err, HasSubstr("more than 256 MiB"));
   EXPECT_THAT(out_.Names(), IsEmpty());
 }
 

@@ -16,8 +16,14 @@
 
 namespace patchmill::testing {
 
+inline ServerOptions Forgetful(ServerOptions options) {
+  options.store_mib = 0;
+  return options;
+}
+
 struct Embedded {
-  explicit Embedded(ServerOptions options = {}) : Embedded(StartEmbeddedServer(options), "") {}
+  // It keeps nothing between calls, so that each request is a new job.
+  explicit Embedded(ServerOptions options = {}) : Embedded(StartEmbeddedServer(Forgetful(options)), "") {}
   Embedded(std::unique_ptr<RunningServer> running, const std::string& target)
       : server(std::move(running)),
         channel(target.empty() ? server->InProcessChannel()

@@ -1,0 +1,56 @@
+#include "clients/cli/uploading.h"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include <grpcpp/grpcpp.h>
+
+#include "clients/cli/text.h"
+#include "core/base/digest.h"
+#include "patchmill/v1/model_service.grpc.pb.h"
+
+namespace patchmill::cli {
+namespace {
+
+constexpr std::size_t kPiece = std::size_t{1} << 20;
+
+absl::Status Unusable(const v1::UploadModelResponse& response) {
+  std::string message = "the model cannot be used";
+  for (const v1::Diagnostic& finding : response.diagnostics())
+    if (finding.severity() == v1::SEVERITY_ERROR) message += "\n  " + Line(finding);
+  return absl::InvalidArgumentError(message);
+}
+
+}  // namespace
+
+absl::Status Upload(const CommonOptions& options, InterruptWatch& watch, const Connection& connection,
+                    v1::ModelSource& source) {
+  v1::ModelFile& file = *source.mutable_file();
+  const std::string content = std::move(*file.mutable_content());
+  v1::UploadModelRequest message;
+  v1::UploadStart& start = *message.mutable_start();
+  start.set_size_bytes(static_cast<std::int64_t>(content.size()));
+  start.set_content_sha256(Sha256(content));
+  start.set_format(file.format());
+  start.set_length_unit(file.length_unit());
+  if (file.has_import_options()) *start.mutable_import_options() = file.import_options();
+
+  CallScope call(options, watch);
+  const auto stub = v1::ModelService::NewStub(connection.channel);
+  v1::UploadModelResponse response;
+  const auto writer = stub->UploadModel(call.context(), &response);
+  bool open = writer->Write(message);
+  for (std::size_t at = 0; open && at < content.size(); at += kPiece) {
+    message.set_chunk(content.substr(at, kPiece));
+    open = writer->Write(message);
+  }
+  writer->WritesDone();
+  const grpc::Status status = writer->Finish();
+  if (!status.ok()) return FromGrpc(status, options, watch);
+  if (response.model_sha256().empty()) return Unusable(response);
+  source.set_model_sha256(response.model_sha256());
+  return absl::OkStatus();
+}
+
+}  // namespace patchmill::cli
