@@ -229,6 +229,15 @@ absl::Status CheckThreads(int max_threads, std::string_view field) {
   return errors.ToStatus();
 }
 
+absl::Status CheckRequestId(const std::string& id) {
+  const bool printable = std::all_of(id.begin(), id.end(), [](char c) { return c >= ' ' && c <= '~'; });
+  if (id.size() <= limits::kMaxRequestIdBytes && printable) return absl::OkStatus();
+  FieldErrors errors;
+  errors.Add("request_id",
+             fmt::format("must be at most {} printable ASCII characters", limits::kMaxRequestIdBytes));
+  return errors.ToStatus();
+}
+
 const char* ServerVersion() { return PATCHMILL_VERSION; }
 
 }  // namespace patchmill

@@ -84,6 +84,8 @@ absl::Status RunJobCall(const Call& call, const Work& work,
 
 // INVALID_ARGUMENT if a thread count is not in [0, limits::kMaxThreads].
 absl::Status CheckThreads(int max_threads, std::string_view field);
+// The same for request_id.
+absl::Status CheckRequestId(const std::string& id);
 
 const char* ServerVersion();
 

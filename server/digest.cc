@@ -104,16 +104,26 @@ void AddNames(const std::vector<std::string>& names, Canonical& out) {
   for (const std::string& name : names) out.Add(name);
 }
 
-// Adds the limits that are set, each under its name. A job without any of them keeps the digest that it had
-// before they existed.
+void AddPlacement(const Placement& placement, Canonical& out) {
+  out.Add(placement.scale).Add(static_cast<std::int64_t>(placement.up));
+  AddPoint(placement.translation, out);
+  if (!placement.turn) return;
+  out.Add("turn");
+  for (const double x : placement.turn->reshaped()) out.Add(x);
+}
+
+void AddWallSides(const std::vector<WallSide>& sides, Canonical& out) {
+  for (const WallSide& side : sides) {
+    out.Add("wall side").Add(side.name);
+    AddPoint(side.air, out);
+  }
+}
+
 // The stock beyond its top and its allowance.
 void AddStock(const Setup& setup, Canonical& out) {
   if (setup.allowance_stated) out.Add("allowance stated");
   if (!setup.zero_stated) out.Add("zero assumed");
-  for (const WallSide& side : setup.wall_sides) {
-    out.Add("wall side").Add(side.name);
-    AddPoint(side.air, out);
-  }
+  AddWallSides(setup.wall_sides, out);
   if (const auto* block = std::get_if<BlockStock>(&setup.stock_body)) out.Add("block").Add(block->margin);
   if (const auto* outline = std::get_if<OutlineStock>(&setup.stock_body)) {
     out.Add("outline");
@@ -147,6 +157,8 @@ void AddMotion(const Operation& op, Canonical& out) {
   if (op.accept_depth != 0.0) out.Add("accept depth").Add(op.accept_depth);
 }
 
+// Adds the limits that are set, each under its name. A job without any of them keeps the digest that it had
+// before they existed.
 void AddLimits(const Job& job, Canonical& out) {
   const Selection& s = job.operation.selection;
   if (!s.patches.empty()) {
@@ -217,12 +229,19 @@ std::string ModelDigest(const PatchModel& model) {
   return out.Digest();
 }
 
+std::string PlacementDigest(const Setup& setup, std::string_view model_digest) {
+  Canonical out;
+  out.Add("patchmill placement 1").Add(model_digest);
+  AddPlacement(setup.placement, out);
+  AddWallSides(setup.wall_sides, out);
+  return out.Digest();
+}
+
 std::string JobDigest(const Job& job, std::string_view model_digest, std::string_view name) {
   Canonical out;
   out.Add("patchmill job 1").Add(model_digest).Add(name);
   const Setup& setup = job.setup;
-  out.Add(setup.placement.scale).Add(static_cast<std::int64_t>(setup.placement.up));
-  AddPoint(setup.placement.translation, out);
+  AddPlacement(setup.placement, out);
   out.Add(static_cast<std::int64_t>(setup.zero));
   AddPoint(setup.zero_point, out);
   AddOptional(setup.stock_top_z, out);

@@ -14,6 +14,9 @@ namespace patchmill {
 // Digest over control points in mm, kinds, degrees, knots, weights and ids, in the order of the model.
 std::string ModelDigest(const PatchModel& model);
 
+// Digest over everything that the placed surface of a model depends on, with the model as its digest.
+std::string PlacementDigest(const Setup& setup, std::string_view model_digest);
+
 // Digest over everything that the program depends on, with the model as its digest. Threads, outputs and
 // request ids are not part of it.
 std::string JobDigest(const Job& job, std::string_view model_digest, std::string_view name);

@@ -136,28 +136,35 @@ grpc::ByteBuffer BytesOf(const google::protobuf::Message& message) {
   return bytes;
 }
 
-// What an answer does not depend on.
+// What an answer does not depend on. A wrong value makes another answer: it stays in the request.
 struct Apart {
   std::string request_id;
   int max_threads = 0;
 };
 Apart TakeApart(v1::GenerateProgramRequest& request) {
-  Apart apart{std::move(*request.mutable_request_id()), request.max_threads()};
-  request.clear_request_id();
-  request.clear_max_threads();
+  Apart apart;
+  if (CheckRequestId(request.request_id()).ok())
+    apart.request_id = std::exchange(*request.mutable_request_id(), {});
+  if (CheckThreads(request.max_threads(), "max_threads").ok()) {
+    apart.max_threads = request.max_threads();
+    request.clear_max_threads();
+  }
   return apart;
 }
 void PutBack(Apart apart, v1::GenerateProgramRequest& request) {
-  request.set_request_id(std::move(apart.request_id));
-  request.set_max_threads(apart.max_threads);
+  if (!apart.request_id.empty()) request.set_request_id(std::move(apart.request_id));
+  if (apart.max_threads != 0) request.set_max_threads(apart.max_threads);
 }
 Apart TakeApart(v1::VerifyProgramRequest& request) {
-  Apart apart{{}, request.max_threads()};
-  request.clear_max_threads();
+  Apart apart;
+  if (CheckThreads(request.max_threads(), "max_threads").ok()) {
+    apart.max_threads = request.max_threads();
+    request.clear_max_threads();
+  }
   return apart;
 }
 void PutBack(const Apart& apart, v1::VerifyProgramRequest& request) {
-  request.set_max_threads(apart.max_threads);
+  if (apart.max_threads != 0) request.set_max_threads(apart.max_threads);
 }
 
 const std::string& ModelIn(const v1::GenerateProgramRequest& request) {

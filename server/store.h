@@ -1,4 +1,5 @@
-// What the server keeps between calls: models that were uploaded, CAD files that were read, answers of jobs.
+// What the server keeps between calls: models that were uploaded, CAD files that were read, surfaces that
+// were built, answers of jobs.
 // One store with one limit of memory: what nobody has used for longest is forgotten first.
 #pragma once
 
@@ -15,7 +16,7 @@
 namespace patchmill {
 
 // What a value of the store is.
-enum class Stored { kModel, kImport, kAnswer };
+enum class Stored { kModel, kImport, kSurface, kAnswer };
 
 struct StoreKey {
   Stored kind = Stored::kModel;
@@ -43,7 +44,7 @@ class Store {
     const auto* found = std::any_cast<std::shared_ptr<const T>>(&value);
     return found == nullptr ? nullptr : *found;
   }
-  // Forgets a model of a caller, and all answers that were made from it. False: there was no such model.
+  // Forgets a model of a caller, and all surfaces and answers that were made from it. False: there was no such model.
   bool ForgetModel(const std::string& caller, const std::string& digest);
 
   struct Figures {

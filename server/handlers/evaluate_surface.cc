@@ -11,6 +11,7 @@
 #include "server/handlers/handlers.h"
 #include "server/handlers/prepare.h"
 #include "server/limits.h"
+#include "server/placed_surface.h"
 
 namespace patchmill {
 namespace {
@@ -85,8 +86,10 @@ absl::Status HandleEvaluateSurface(const Call& call, const v1::EvaluateSurfaceRe
         PM_RETURN_IF_ERROR(CheckPoints(request, model.model));
         PM_ASSIGN_OR_RETURN(UprightModel upright, MakeUpright(std::move(model), job.setup, run));
         job.setup = std::move(upright.setup);
-        PM_ASSIGN_OR_RETURN(const Surface surface,
-                            BuildPlacedSurface(std::move(upright.model.model), job.setup, run));
+        PM_ASSIGN_OR_RETURN(const std::shared_ptr<const Surface> built,
+                            PlacedSurface(std::move(upright.model.model), upright.model.digest, job.setup,
+                                          run, ModelsOf(call)));
+        const Surface& surface = *built;
         PM_ASSIGN_OR_RETURN(const Resolved resolved, Resolve(surface, job, run));
         for (int k = 0; k < count; ++k) {
           const PatchId patch(request.patch_index(k));

@@ -18,6 +18,7 @@
 #include "server/handlers/outputs.h"
 #include "server/handlers/prepare.h"
 #include "server/limits.h"
+#include "server/placed_surface.h"
 
 namespace patchmill {
 namespace {
@@ -28,15 +29,6 @@ const Outputs kPossible = {v1::OUTPUT_PROGRESS, v1::OUTPUT_REGIONS,     v1::OUTP
                            v1::OUTPUT_PROGRAM,  v1::OUTPUT_REPORT,      v1::OUTPUT_PICTURE,
                            v1::OUTPUT_ARCS,     v1::OUTPUT_PATH_BLOCKS, v1::OUTPUT_TESSELLATION};
 const Outputs kDefaults = {v1::OUTPUT_PROGRESS, v1::OUTPUT_PROGRAM, v1::OUTPUT_REPORT};
-
-absl::Status CheckRequestId(const std::string& id) {
-  const bool printable = std::all_of(id.begin(), id.end(), [](char c) { return c >= ' ' && c <= '~'; });
-  if (id.size() <= limits::kMaxRequestIdBytes && printable) return absl::OkStatus();
-  FieldErrors errors;
-  errors.Add("request_id",
-             fmt::format("must be at most {} printable ASCII characters", limits::kMaxRequestIdBytes));
-  return errors.ToStatus();
-}
 
 Response MakeAccepted(const PreparedJob& prepared, const Outputs& outputs, std::int64_t memory_bytes) {
   Response response;
@@ -101,9 +93,12 @@ absl::Status MakeMesh(const Surface& surface, const Job& job, const Wanted& want
 }
 
 // Moves the model out of `prepared`; nothing else needs it.
-absl::Status Make(PreparedJob& prepared, const Wanted& wanted, const RunContext& run, Made* made) {
-  PM_ASSIGN_OR_RETURN(const Surface surface,
-                      BuildPlacedSurface(std::move(prepared.model.model), prepared.job.setup, run));
+absl::Status Make(PreparedJob& prepared, const Wanted& wanted, const ModelAccess& models,
+                  const RunContext& run, Made* made) {
+  PM_ASSIGN_OR_RETURN(
+      const std::shared_ptr<const Surface> built,
+      PlacedSurface(std::move(prepared.model.model), prepared.model.digest, prepared.job.setup, run, models));
+  const Surface& surface = *built;
   made->face_ids = FaceIds(surface.network.model);
   PM_ASSIGN_OR_RETURN(made->resolved, Resolve(surface, prepared.job, run));
   if (wanted.mesh && wanted.chord) PM_RETURN_IF_ERROR(CheckChord(surface, *wanted.chord, run));
@@ -118,11 +113,12 @@ absl::Status Make(PreparedJob& prepared, const Wanted& wanted, const RunContext&
 }
 
 // Checks everything that can be checked without planning.
-absl::Status Validate(const PreparedJob& prepared, const RunContext& run) {
-  PM_ASSIGN_OR_RETURN(const Surface surface,
-                      BuildPlacedSurface(prepared.model.model, prepared.job.setup, run));
+absl::Status Validate(const PreparedJob& prepared, const ModelAccess& models, const RunContext& run) {
+  PM_ASSIGN_OR_RETURN(
+      const std::shared_ptr<const Surface> surface,
+      PlacedSurface(prepared.model.model, prepared.model.digest, prepared.job.setup, run, models));
   PM_RETURN_IF_ERROR(ValidateJob(prepared.job));
-  return Resolve(surface, prepared.job, run).status();
+  return Resolve(*surface, prepared.job, run).status();
 }
 
 // Calls send(offset, piece) for pieces of at most limits::kChunkBytes.
@@ -227,7 +223,7 @@ absl::Status HandleGenerateProgram(const Call& call, const v1::GenerateProgramRe
     if (!made.ok()) return InJob(made.status());
     prepared = *std::move(made);
     PM_RETURN_IF_ERROR(run.Check());
-    return request.validate_only() ? InJob(Validate(prepared, run)) : absl::OkStatus();
+    return request.validate_only() ? InJob(Validate(prepared, ModelsOf(call), run)) : absl::OkStatus();
   };
   PM_RETURN_IF_ERROR(RunQuickCall(call, {.max_threads = request.max_threads()}, prepare));
   const std::int64_t memory = EstimatedMemory(prepared, *call.env);
@@ -246,7 +242,7 @@ absl::Status HandleGenerateProgram(const Call& call, const v1::GenerateProgramRe
   // The answer is sent before the job's place and memory are given back: it takes as much memory as the job.
   return RunJobCall(call, work, [&](const RunContext& run) -> absl::Status {
     Made made;
-    PM_RETURN_IF_ERROR(InJob(Make(prepared, wanted, run, &made)));
+    PM_RETURN_IF_ERROR(InJob(Make(prepared, wanted, ModelsOf(call), run, &made)));
     return SendResult(prepared, made, outputs, sink) ? absl::OkStatus() : gone();
   });
 }

@@ -14,6 +14,7 @@
 #include "server/handlers/handlers.h"
 #include "server/handlers/outputs.h"
 #include "server/handlers/prepare.h"
+#include "server/placed_surface.h"
 
 namespace patchmill {
 
@@ -35,8 +36,10 @@ absl::Status HandleSplitRegions(const Call& call, const v1::SplitRegionsRequest&
     PM_ASSIGN_OR_RETURN(PreparedJob prepared, PrepareJob(request.job(), v1::Post(), run, ModelsOf(call)));
     PM_RETURN_IF_ERROR(run.Check());
     const Job& job = prepared.job;
-    PM_ASSIGN_OR_RETURN(const Surface surface,
-                        BuildPlacedSurface(std::move(prepared.model.model), job.setup, run));
+    PM_ASSIGN_OR_RETURN(const std::shared_ptr<const Surface> built,
+                        PlacedSurface(std::move(prepared.model.model), prepared.model.digest, job.setup, run,
+                                      ModelsOf(call)));
+    const Surface& surface = *built;
     PM_ASSIGN_OR_RETURN(const Resolved resolved, Resolve(surface, job, run));
     if (chord) PM_RETURN_IF_ERROR(CheckChord(surface, *chord, run));
     PM_ASSIGN_OR_RETURN(const ChosenRegions regions, PlanRegions(surface, job, run));

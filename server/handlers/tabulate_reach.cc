@@ -11,6 +11,7 @@
 #include "server/handlers/handlers.h"
 #include "server/handlers/prepare.h"
 #include "server/limits.h"
+#include "server/placed_surface.h"
 
 namespace patchmill {
 namespace {
@@ -59,8 +60,10 @@ absl::Status HandleTabulateReach(const Call& call, const v1::TabulateReachReques
       return errors.ToStatus();
     }
     PM_RETURN_IF_ERROR(run.Check());
-    PM_ASSIGN_OR_RETURN(const Surface surface,
-                        BuildPlacedSurface(std::move(prepared.model.model), job.setup, run));
+    PM_ASSIGN_OR_RETURN(const std::shared_ptr<const Surface> built,
+                        PlacedSurface(std::move(prepared.model.model), prepared.model.digest, job.setup, run,
+                                      ModelsOf(call)));
+    const Surface& surface = *built;
     PM_ASSIGN_OR_RETURN(const Resolved resolved, Resolve(surface, job, run));
     params.floor_z = resolved.floor_z - job.operation.leave;
     PM_ASSIGN_OR_RETURN(const ReachTableResult table, ReachTable(surface, params, run));

@@ -15,6 +15,7 @@
 #include "server/handlers/handlers.h"
 #include "server/handlers/prepare.h"
 #include "server/limits.h"
+#include "server/placed_surface.h"
 
 namespace patchmill {
 namespace {
@@ -174,8 +175,10 @@ absl::Status HandleTraceLines(const Call& call, const v1::TraceLinesRequest& req
         PM_ASSIGN_OR_RETURN(UprightModel upright, MakeUpright(std::move(model), order.job.setup, run));
         Job job = order.job;
         job.setup = std::move(upright.setup);
-        PM_ASSIGN_OR_RETURN(const Surface surface,
-                            BuildPlacedSurface(std::move(upright.model.model), job.setup, run));
+        PM_ASSIGN_OR_RETURN(const std::shared_ptr<const Surface> built,
+                            PlacedSurface(std::move(upright.model.model), upright.model.digest, job.setup,
+                                          run, ModelsOf(call)));
+        const Surface& surface = *built;
         PM_ASSIGN_OR_RETURN(const Resolved resolved, Resolve(surface, job, run));
         const Vec3& zero = resolved.program_zero;
         std::vector<LineOrder> lines;

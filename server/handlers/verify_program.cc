@@ -29,6 +29,7 @@
 #include "server/handlers/outputs.h"
 #include "server/handlers/prepare.h"
 #include "server/limits.h"
+#include "server/placed_surface.h"
 
 namespace patchmill {
 namespace {
@@ -350,8 +351,10 @@ absl::Status Make(const Call& call, const v1::VerifyProgramRequest& request, con
   PM_RETURN_IF_ERROR(run.Check());
   PM_ASSIGN_OR_RETURN(UprightModel upright, MakeUpright(std::move(model), job.setup, run));
   job.setup = std::move(upright.setup);
-  PM_ASSIGN_OR_RETURN(const Surface surface,
-                      BuildPlacedSurface(std::move(upright.model.model), job.setup, run));
+  PM_ASSIGN_OR_RETURN(
+      const std::shared_ptr<const Surface> built,
+      PlacedSurface(std::move(upright.model.model), upright.model.digest, job.setup, run, ModelsOf(call)));
+  const Surface& surface = *built;
   PM_ASSIGN_OR_RETURN(const Resolved resolved, Resolve(surface, job, run));
   if (what.wanted.mesh && what.wanted.chord) PM_RETURN_IF_ERROR(CheckChord(surface, *what.wanted.chord, run));
   const Judging by{surface, what.tools, job, request.has_scallop_mm(), request.leftover_map(), run};

@@ -249,6 +249,27 @@ TEST_F(UploadModelTest, FindingsAreThoseOfTheNewestUpload) {
   EXPECT_FALSE(suspects_unit());
 }
 
+// What an answer does not depend on is judged nevertheless, while the same job runs and after its end.
+TEST_F(UploadModelTest, AWrongRequestGetsNoAnswerOfARightOne) {
+  v1::GenerateProgramRequest request = TeapotRequest(content_);
+  const auto is_refused = [&] {
+    v1::GenerateProgramRequest wrong = request;
+    wrong.set_request_id("two\nlines");
+    EXPECT_THAT(embedded_.Generate(wrong).status,
+                RpcStatusIs(StatusCode::INVALID_ARGUMENT, HasSubstr("request_id")));
+    wrong.set_request_id("one line");
+    wrong.set_max_threads(-1);
+    EXPECT_THAT(embedded_.Generate(wrong).status,
+                RpcStatusIs(StatusCode::INVALID_ARGUMENT, HasSubstr("max_threads")));
+  };
+  Embedded::Stream right;
+  std::thread job([&] { right = embedded_.Generate(request); });
+  for (int k = 0; k < 5; ++k) is_refused();
+  job.join();
+  EXPECT_TRUE(right.status.ok()) << right.status.error_message();
+  is_refused();
+}
+
 // Two at once: one job, one answer.
 TEST_F(UploadModelTest, ARunningJobIsJoined) {
   v1::GenerateProgramRequest request = TeapotRequest(content_);
