@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
 # Runs one of the long tests of docs/long_tests.md, each in less than an hour, and writes its row of that page.
 #   scripts/long_tests.sh NAME
-# NAME: soak, clients, requests, whole, asan, asan_passes, asan_jobs, tsan, random, certificates, fuzz, container, coverage, linuxcnc_times, freecad.
+# NAME: soak, clients, requests, whole, asan, asan_passes, asan_jobs, tsan, random, posts, certificates, fuzz, container, coverage, linuxcnc_times, freecad.
 # LIMIT: minutes after which a test is ended, 60 unless it is set; more for a machine that does other work beside.
 # PATCHMILL_BIN: of freecad, a folder with built programs; unset: they are built.
-# SEED: of soak, random and certificates; another one each day unless it is set. MINUTES: of soak, 30 unless it is set.
+# SEED: of soak, random, posts and certificates; another one each day unless it is set. MINUTES: of soak, 30 unless it is set.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 name="${1:-}"
@@ -58,12 +58,18 @@ random() {  # a hundred parts of each kind, ten thousand loops on CAD faces, a t
   local file failed=0
   build release property_tests core_trim_tests service_tests
   for file in tests/property/random_*_test.cc; do
+    [ "$file" != tests/property/random_posts_test.cc ] || continue  # a test of its own
     echo "$file"
     PATCHMILL_FUZZ_JOBS=100 PATCHMILL_FUZZ_SEED="$seed" build/release/tests/property_tests --file="$file" --gtest_brief=1 || failed=1
   done
   PATCHMILL_FUZZ_JOBS=1700 PATCHMILL_FUZZ_SEED="$seed" build/release/tests/core_trim_tests --gtest_filter='BothSides.*' --gtest_brief=1 || failed=1
   PATCHMILL_FUZZ_JOBS=1000 PATCHMILL_FUZZ_SEED="$seed" build/release/tests/service_tests --gtest_filter=Importer.DamagedFiles --gtest_brief=1 || failed=1
   return "$failed"
+}
+posts() {  # a hundred parts in every dialect, with arcs and without, in mm and in inches
+  build release property_tests
+  PATCHMILL_LONG=1 PATCHMILL_FUZZ_JOBS=100 PATCHMILL_FUZZ_SEED="$seed" \
+    build/release/tests/property_tests --file=tests/property/random_posts_test.cc --gtest_brief=1
 }
 certificates() {  # ten million heights
   build release cam_location_tests
@@ -111,7 +117,7 @@ freecad() {  # the add-on in Debian's FreeCAD
 
 case "$name" in
   soak) command="MINUTES=$minutes SEED=$seed scripts/long_tests.sh soak" ;;
-  clients | requests | random | certificates) command="SEED=$seed scripts/long_tests.sh $name" ;;
+  clients | requests | random | posts | certificates) command="SEED=$seed scripts/long_tests.sh $name" ;;
   whole | asan | asan_passes | asan_jobs | tsan | fuzz | container | coverage | linuxcnc_times | freecad) command="scripts/long_tests.sh $name" ;;
   *)
     sed -n '2,7s/^# \?//p' "$0" >&2

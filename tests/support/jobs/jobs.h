@@ -43,7 +43,7 @@ double AreaFor(const JobResult& result, UnreachableReason reason);
 // Fails the test unless the result carries a verified program that keeps [verification P1, P2, P3] at
 // `samples` random places of its moves and of the surface. Under a forced strategy leftover is judged where
 // that can finish (not at all where lines have an angle of their own in each region). Program zero must be
-// the model origin and the heights the default ones (floor_z apart).
+// the model origin and the heights the default ones (floor_z apart). The text is read by the job's dialect.
 void CheckProgram(const Surface& surface, const Job& job, const JobResult& result, Random& random,
                   int samples);
 
