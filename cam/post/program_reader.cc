@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 
+#include <absl/strings/ascii.h>
 #include <fmt/format.h>
 
 #include "cam/post/arc_chords.h"
@@ -183,7 +184,7 @@ absl::Status Interpreter::SetTool(const BlockModes& block) {
   PM_RETURN_IF_ERROR(SetToolName(block));
   if (block.tool_change && block['T'] && !tool_name_.empty())
     return Bad(
-        fmt::format("T{:g} after tool \"{}\": post the program with T numbers", *block['T'], tool_name_));
+        fmt::format("T{:g} after tool \"{}\"; state every tool of the program", *block['T'], tool_name_));
   if (block.tool_change) {
     spindle_on_ = false;  // every RS274 control stops it for the change
     if (!above_) {
@@ -201,13 +202,21 @@ absl::Status Interpreter::SetTool(const BlockModes& block) {
   return absl::OkStatus();
 }
 
-// A tool that has a name in place of a number: the request cannot say which of its tools that is.
+// A tool that has a name in place of a number. Without a tool of that name, it may be the only one.
 absl::Status Interpreter::SetToolName(const BlockModes& block) {
   const std::string& name = block.tool_name;
   if (name.empty() || name == tool_name_) return absl::OkStatus();
-  if (params_.several_tools || !tool_name_.empty() || loaded_ >= 0) {
-    return Bad(fmt::format(
-        "tool \"{}\": of several tools each needs a number; post the program with T numbers", name));
+  if (const auto found = params_.tools_by_name.find(absl::AsciiStrToLower(name));
+      found != params_.tools_by_name.end()) {
+    tool_ = found->second;
+    return absl::OkStatus();
+  }
+  if (params_.several_tools) {
+    return Bad(fmt::format("tool \"{}\" is none of the tools; state one of this name", name));
+  }
+  if (!tool_name_.empty() || loaded_ >= 0) {
+    return Bad(fmt::format("tool \"{}\" after tool {}; state every tool of the program", name,
+                           tool_name_.empty() ? fmt::format("{}", loaded_) : '"' + tool_name_ + '"'));
   }
   tool_name_ = name;
   Note("TOOL_NAME_ASSUMED", fmt::format("tool \"{}\" is taken to be the tool of this set-up", name));

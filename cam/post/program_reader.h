@@ -2,6 +2,7 @@
 // RS274-like text, ours or another's.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string_view>
 
@@ -30,6 +31,8 @@ struct ReaderParams {
   std::optional<double> machine_z_safe = {};
   bool run_deletable_lines = true;  // lines that start with / (block delete) run
   bool several_tools = false;       // the program may change the tool; ProgramMove::tool says which one moves
+  // Numbers of the tools that programs may call by their names, in small letters.
+  std::map<std::string, int> tools_by_name = {};
 };
 
 // Reads G0-G3, G4, G17-G19, G20/G21, G28, G30, G40, G43/G49, G53, G54-G59, G61/G61.1/G64, G73, G80-G83,

@@ -45,22 +45,44 @@ struct VerifyOptions {
   ShankOptions shank;
 };
 
-// "2=6": tool 2 has a ball of 6 mm. Else a tool of a file.
+// "2=6": tool 2 has a ball of 6 mm. "BALL_6=6": so has a tool that is called by this name. Else a tool of a
+// file.
 absl::StatusOr<v1::Tool> ReadTool(const std::string& text) {
   const std::size_t equals = text.find('=');
   double number = 0.0, diameter = 0.0;
-  if (!ReadFinite(text.substr(0, equals), number)) return ReadToolFile(text);
-  const bool good = equals != std::string::npos && ReadFinite(text.substr(0, equals), number) &&
-                    ReadFinite(text.substr(equals + 1), diameter) && number >= 1.0 && number <= 99999.0 &&
-                    number == std::floor(number);
+  const bool has_number = ReadFinite(text.substr(0, equals), number);
+  const bool has_diameter = equals != std::string::npos && ReadFinite(text.substr(equals + 1), diameter);
+  if (!has_number && !has_diameter) return ReadToolFile(text);
+  const bool good = has_diameter && equals > 0 &&
+                    (!has_number || (number >= 1.0 && number <= 99999.0 && number == std::floor(number)));
   if (!good) {
-    return absl::InvalidArgumentError(fmt::format(
-        "--tool {}; must be NUMBER=DIAMETER, as 2=6, with a number from 1 to 99999, or FILE[:NUMBER]", text));
+    return absl::InvalidArgumentError(
+        fmt::format("--tool {}; must be NUMBER=DIAMETER, as 2=6, with a number from 1 to 99999, or "
+                    "NAME=DIAMETER, or FILE[:NUMBER]",
+                    text));
   }
   v1::Tool tool;
-  tool.set_number(static_cast<int>(number));
+  if (has_number) {
+    tool.set_number(static_cast<int>(number));
+  } else {
+    tool.set_name(WireText(text.substr(0, equals), 200));
+  }
   tool.mutable_ball_end()->set_diameter_mm(diameter);
   return tool;
+}
+
+// Gives tools that have only a name the greatest numbers that are free: the program calls them by name.
+void NumberTools(v1::VerifyProgramRequest& request) {
+  int next = 99999;
+  const auto is_taken = [&](int number) {
+    return std::any_of(request.tools().begin(), request.tools().end(),
+                       [&](const v1::Tool& tool) { return tool.number() == number; });
+  };
+  for (v1::Tool& tool : *request.mutable_tools()) {
+    if (tool.number() != 0 || tool.name().empty()) continue;
+    while (is_taken(next)) --next;
+    tool.set_number(next);
+  }
 }
 
 absl::Status SetTools(const VerifyOptions& options, v1::VerifyProgramRequest& request) {
@@ -70,6 +92,7 @@ absl::Status SetTools(const VerifyOptions& options, v1::VerifyProgramRequest& re
     if (!tool.ok()) return tool.status();
     *request.add_tools() = *std::move(tool);
   }
+  if (request.tools_size() > 1) NumberTools(request);
   if (request.tools().empty())
     return absl::InvalidArgumentError("--tool-diameter is missing; set it, or --tool for each tool");
   for (v1::Tool& tool : *request.mutable_tools()) {
@@ -286,10 +309,10 @@ Command AddVerify(CLI::App& app) {
       ->required();
   auto* diameter = AddNumber(app, "--tool-diameter", options->tool_diameter,
                              "ball diameter of the one tool of the program, mm; required without --tool");
-  app.add_option(
-         "--tool", options->tools,
-         "T=D: number and ball diameter (mm) of a tool, or FILE[:NUMBER] as for mill; once for each tool of "
-         "the program")
+  app.add_option("--tool", options->tools,
+                 "T=D: number or name, and ball diameter (mm), of a tool, or FILE[:NUMBER] as for mill; once "
+                 "for each tool of "
+                 "the program")
       ->excludes(diameter);
   AddShankOptions(app, options->shank);
   AddNumber(app, "--plunge-feed", options->plunge_feed,

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include <absl/strings/ascii.h>
 #include <fmt/format.h>
 
 #include "cam/plan/beside_depth.h"
@@ -61,6 +62,11 @@ std::vector<Tool> ReadTools(const v1::VerifyProgramRequest& request, FieldErrors
     const bool again = std::any_of(tools.begin(), tools.end() - 1,
                                    [&](const Tool& t) { return t.number == tools.back().number; });
     if (again) errors.Add(field + ".number", fmt::format("= {}; another tool has it", tools.back().number));
+    const std::string name = absl::AsciiStrToLower(tools.back().name);
+    const bool same_name = !name.empty() && std::any_of(tools.begin(), tools.end() - 1, [&](const Tool& t) {
+      return absl::AsciiStrToLower(t.name) == name;
+    });
+    if (same_name) errors.Add(field + ".name", "is that of another tool; capital letters do not count");
   }
   if (tools.size() > 1 && !request.region_overrides().empty())
     errors.Add("region_overrides", "is set with several tools; regions are those of one tool");
@@ -174,7 +180,7 @@ struct ProgramText {
   ReaderParams params;
 };
 
-ProgramText TextOf(const v1::VerifyProgramRequest& request, const Job& job, std::size_t tools,
+ProgramText TextOf(const v1::VerifyProgramRequest& request, const Job& job, const std::vector<Tool>& tools,
                    const RunContext& run) {
   constexpr double kMachineZSafe = -10.0;  // mm
   ProgramText program;
@@ -186,7 +192,10 @@ ProgramText TextOf(const v1::VerifyProgramRequest& request, const Job& job, std:
   program.params.machine_z_safe = request.has_machine_z_safe_mm()
                                       ? request.machine_z_safe_mm()
                                       : std::min(kMachineZSafe, job.dialect.machine_top);
-  program.params.several_tools = tools > 1;
+  program.params.several_tools = tools.size() > 1;
+  for (const Tool& tool : tools) {
+    if (!tool.name.empty()) program.params.tools_by_name[absl::AsciiStrToLower(tool.name)] = tool.number;
+  }
   return program;
 }
 
@@ -346,7 +355,7 @@ absl::Status Make(const Call& call, const v1::VerifyProgramRequest& request, con
   PM_ASSIGN_OR_RETURN(LoadedModel model, LoadModel(request.source(), "source", run, ModelsOf(call)));
   PM_RETURN_IF_ERROR(RequireSound(model));
   PM_RETURN_IF_ERROR(run.Check());
-  const ProgramText program = TextOf(request, job, what.tools.size(), run);
+  const ProgramText program = TextOf(request, job, what.tools, run);
   PM_ASSIGN_OR_RETURN(ProgramMotion motion, Read(program));
   PM_RETURN_IF_ERROR(run.Check());
   PM_ASSIGN_OR_RETURN(UprightModel upright, MakeUpright(std::move(model), job.setup, run));

@@ -272,6 +272,32 @@ TEST_F(Cli, VerifyNamesItsAssumptionsAndTakesThoseOfTheUser) {
   EXPECT_THAT(verify({}).err, HasSubstr("--tool-diameter is missing"));
   EXPECT_THAT(verify({"--tool", "6"}).err, HasSubstr("must be NUMBER=DIAMETER"));
   EXPECT_THAT(verify({"--tool", "1=6", "--tool", "1=4"}).err, HasSubstr("another tool has it"));
+  EXPECT_THAT(verify({"--tool", "ball=6", "--tool", "Ball=4"}).err, HasSubstr("that of another tool"));
+  EXPECT_THAT(verify({"--tool", "=6"}).err, HasSubstr("must be NUMBER=DIAMETER"));
+}
+
+// A program for Siemens that calls its tools by their names: the first cuts, the second stays above.
+TEST_F(Cli, VerifyTakesToolsByName) {
+  ASSERT_EQ(Mill(bump_, {"--post", "siemens"}).status, 0);
+  std::string program = Slurp(out_ / "part.ngc");
+  const std::size_t call = program.find("\nT1");
+  ASSERT_NE(call, std::string::npos);
+  program.replace(call, 3, "\nT=\"BALL_6\"");
+  const std::string named = out_.Write("named.mpf", program);
+  const auto verify = [&](const std::vector<std::string>& tools) {
+    std::vector<std::string> words = {"verify", bump_,         named,  "--dialect", "siemens", "--scallop",
+                                      "0.05",   "--tolerance", "0.02", "--floor",   "-1"};
+    for (const std::string& tool : tools) words.insert(words.end(), {"--tool", tool});
+    return Patchmill(words);
+  };
+  const Finished right = verify({"ball_6=6", "ball_3=3"});
+  EXPECT_EQ(right.status, 0) << right.out << right.err;
+  EXPECT_THAT(right.out, Not(HasSubstr("TOOL_NAME_ASSUMED")));
+  // With the sizes exchanged the finish is too coarse.
+  EXPECT_EQ(verify({"ball_6=3", "ball_3=6"}).status, 1);
+  const Finished unknown = verify({"ball_8=8", "ball_3=3"});
+  EXPECT_EQ(unknown.status, 2) << unknown.err;
+  EXPECT_THAT(unknown.err, HasSubstr("\"BALL_6\" is none of the tools"));
 }
 
 // The share that is not reached is that of the report.
