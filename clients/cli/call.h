@@ -5,19 +5,18 @@
 
 namespace patchmill::cli {
 
-// Calls `method` of a service, e.g. &v1::ModelService::Stub::CheckModel. A model that is too large for one
-// message is uploaded first. Any error of the server is worded for a user.
+// Calls `method` of a service, e.g. &v1::ModelService::Stub::CheckModel. Errors are those of SendRequest.
 template <class Stub, class Request, class Response>
 absl::StatusOr<Response> Call(const CommonOptions& options, InterruptWatch& watch,
                               grpc::Status (Stub::*method)(grpc::ClientContext*, const Request&, Response*),
                               Request request) {
-  absl::StatusOr<Connection> connection = ConnectFor(options, watch, request);
-  if (!connection.ok()) return connection.status();
-  CallScope call(options, watch);
-  Stub stub(connection->channel);
   Response response;
-  const grpc::Status status = (stub.*method)(call.context(), request, &response);
-  if (!status.ok()) return FromGrpc(status, options, watch);
+  const absl::Status status = SendRequest(options, watch, request, [&](const Connection& connection) {
+    CallScope call(options, watch);
+    Stub stub(connection.channel);
+    return (stub.*method)(call.context(), request, &response);
+  });
+  if (!status.ok()) return status;
   return response;
 }
 

@@ -140,6 +140,8 @@ absl::StatusOr<Connection> Connect(const CommonOptions& options, KeepModels keep
   return connection;
 }
 
+std::string ReasonOf(const grpc::Status& status) { return InfoOf(status).reason(); }
+
 CallScope::CallScope(const CommonOptions& options, InterruptWatch& watch) : watch_(watch) {
   if (options.timeout) {
     context_.set_deadline(std::chrono::system_clock::now() +

@@ -49,6 +49,9 @@ class CallScope {
 // The error worded for a user. Field paths are replaced by the names of options where there is one.
 absl::Status FromGrpc(const grpc::Status& status, const CommonOptions& options, const InterruptWatch& watch);
 
+// The reason in the details of an error; empty without details.
+std::string ReasonOf(const grpc::Status& status);
+
 // 0 for OK; 2 for wrong usage and unreadable input; 1 for any other error.
 int ExitStatus(const absl::Status& status);
 

@@ -309,17 +309,18 @@ void PrintSummary(const MillOptions& options, const v1::Report& report) {
 
 absl::Status Receive(const CommonOptions& options, v1::GenerateProgramRequest request, InterruptWatch& watch,
                      Received& received) {
-  absl::StatusOr<Connection> connection = ConnectFor(options, watch, request);
-  if (!connection.ok()) return connection.status();
-  CallScope call(options, watch);
-  const auto stub = v1::ToolpathService::NewStub(connection->channel);
-  ProgressBar bar(options.quiet);
-  const auto reader = stub->GenerateProgram(call.context(), request);
-  v1::GenerateProgramResponse response;
-  while (reader->Read(&response)) Take(response, bar, received);
-  const grpc::Status status = reader->Finish();
-  bar.Clear();
-  if (!status.ok()) return FromGrpc(status, options, watch);
+  const absl::Status status = SendRequest(options, watch, request, [&](const Connection& connection) {
+    CallScope call(options, watch);
+    const auto stub = v1::ToolpathService::NewStub(connection.channel);
+    ProgressBar bar(options.quiet);
+    const auto reader = stub->GenerateProgram(call.context(), request);
+    v1::GenerateProgramResponse response;
+    while (reader->Read(&response)) Take(response, bar, received);
+    grpc::Status ended = reader->Finish();
+    bar.Clear();
+    return ended;
+  });
+  if (!status.ok()) return status;
   return received.complete ? absl::OkStatus()
                            : absl::DataLossError("the answer ended without a report; nothing was written");
 }

@@ -24,10 +24,9 @@ absl::Status Unusable(const v1::UploadModelResponse& response) {
 
 }  // namespace
 
-absl::Status Upload(const CommonOptions& options, InterruptWatch& watch, const Connection& connection,
-                    v1::ModelSource& source) {
-  v1::ModelFile& file = *source.mutable_file();
-  const std::string content = std::move(*file.mutable_content());
+absl::StatusOr<std::string> Upload(const CommonOptions& options, InterruptWatch& watch,
+                                   const Connection& connection, const v1::ModelFile& file) {
+  const std::string& content = file.content();
   v1::UploadModelRequest message;
   v1::UploadStart& start = *message.mutable_start();
   start.set_size_bytes(static_cast<std::int64_t>(content.size()));
@@ -49,8 +48,11 @@ absl::Status Upload(const CommonOptions& options, InterruptWatch& watch, const C
   const grpc::Status status = writer->Finish();
   if (!status.ok()) return FromGrpc(status, options, watch);
   if (response.model_sha256().empty()) return Unusable(response);
-  source.set_model_sha256(response.model_sha256());
-  return absl::OkStatus();
+  return response.model_sha256();
+}
+
+bool LacksModel(const grpc::Status& status) {
+  return status.error_code() == grpc::StatusCode::NOT_FOUND && ReasonOf(status) == "MODEL_NOT_CACHED";
 }
 
 }  // namespace patchmill::cli

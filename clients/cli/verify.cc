@@ -243,20 +243,21 @@ void Take(v1::VerifyProgramResponse& response, VerifyAnswer& received) {
 
 absl::Status Receive(const CommonOptions& options, v1::VerifyProgramRequest request, InterruptWatch& watch,
                      VerifyAnswer& received) {
-  absl::StatusOr<Connection> connection = ConnectFor(options, watch, request);
-  if (!connection.ok()) return connection.status();
-  CallScope call(options, watch);
-  const auto stub = v1::ToolpathService::NewStub(connection->channel);
-  const auto reader = stub->VerifyProgram(call.context(), request);
-  ProgressBar bar(options.quiet);
-  v1::VerifyProgramResponse response;
-  while (reader->Read(&response)) {
-    if (response.has_progress()) bar.Show(response.progress());
-    Take(response, received);
-  }
-  const grpc::Status status = reader->Finish();
-  bar.Clear();
-  if (!status.ok()) return FromGrpc(status, options, watch);
+  const absl::Status status = SendRequest(options, watch, request, [&](const Connection& connection) {
+    CallScope call(options, watch);
+    const auto stub = v1::ToolpathService::NewStub(connection.channel);
+    const auto reader = stub->VerifyProgram(call.context(), request);
+    ProgressBar bar(options.quiet);
+    v1::VerifyProgramResponse response;
+    while (reader->Read(&response)) {
+      if (response.has_progress()) bar.Show(response.progress());
+      Take(response, received);
+    }
+    grpc::Status ended = reader->Finish();
+    bar.Clear();
+    return ended;
+  });
+  if (!status.ok()) return status;
   return received.complete ? absl::OkStatus() : absl::DataLossError("the answer ended without a report");
 }
 

@@ -1,9 +1,14 @@
 // Models that are too large for one message: the command line sends them in pieces.
+#include <atomic>
+#include <memory>
 #include <string>
 
 #include <gmock/gmock.h>
+#include <grpcpp/grpcpp.h>
 #include <gtest/gtest.h>
 
+#include "patchmill/v1/model_service.grpc.pb.h"
+#include "server/errors.h"
 #include "tests/service/daemon.h"
 #include "tests/service/patchmill.h"
 #include "tests/support/files.h"
@@ -59,6 +64,57 @@ TEST(CliUpload, ALargeFileThatIsWrongSaysWhatIsWrong) {
   EXPECT_THAT(wrong.err, HasSubstr("degree"));
   folder.Write("mouse.json", "{" + kBlanks);
   EXPECT_EQ(Mill(folder).status, 2);
+}
+
+// Takes uploads, and forgets the models that come first.
+class Forgetful final : public v1::ModelService::Service {
+ public:
+  explicit Forgetful(int forgotten) : forgotten_(forgotten) {
+    grpc::ServerBuilder builder;
+    builder.AddListeningPort("127.0.0.1:0", grpc::InsecureServerCredentials(), &port_);
+    builder.RegisterService(this);
+    server_ = builder.BuildAndStart();
+  }
+  std::string target() const { return "127.0.0.1:" + std::to_string(port_); }
+  int uploads() const { return uploads_; }
+
+ private:
+  grpc::Status UploadModel(grpc::ServerContext*, grpc::ServerReader<v1::UploadModelRequest>* reader,
+                           v1::UploadModelResponse* response) override {
+    v1::UploadModelRequest message;
+    while (reader->Read(&message)) {
+    }
+    ++uploads_;
+    response->set_model_sha256(std::string(32, 'x'));
+    return grpc::Status::OK;
+  }
+  grpc::Status CheckModel(grpc::ServerContext*, const v1::CheckModelRequest* request,
+                          v1::CheckModelResponse* response) override {
+    EXPECT_EQ(request->source().model_sha256(), std::string(32, 'x'));
+    if (uploads_ <= forgotten_) return ToGrpcStatus(ModelNotCachedError());
+    response->set_patch_count(4711);
+    return grpc::Status::OK;
+  }
+
+  const int forgotten_;
+  std::atomic<int> uploads_{0};
+  int port_ = 0;
+  std::unique_ptr<grpc::Server> server_;
+};
+
+TEST(CliUpload, AModelThatTheServerHasForgottenIsSentAgain) {
+  const TempDir folder;
+  const std::string model =
+      folder.Write("mouse.json", testing::ReadRepositoryFile("examples/mouse.json") + kBlanks);
+  const Forgetful once(1), always(99);
+  const Finished again = Patchmill({"check", model, "--server", once.target()});
+  EXPECT_EQ(again.status, 0) << again.err;
+  EXPECT_THAT(again.out, HasSubstr("4711"));
+  EXPECT_EQ(once.uploads(), 2);
+  const Finished never = Patchmill({"check", model, "--server", always.target()});
+  EXPECT_NE(never.status, 0);
+  EXPECT_THAT(never.err, HasSubstr("does not hold"));
+  EXPECT_EQ(always.uploads(), 3);
 }
 
 TEST(CliUpload, AFileBeyondTheLimitIsRefusedBeforeItIsSent) {
