@@ -226,7 +226,11 @@ Embedded SmallServer(double max_job_seconds) {
   auto started = StartServer(options);
   PM_CHECK(started.ok());
   const std::string target = "127.0.0.1:" + std::to_string((*started)->port());
-  return {*std::move(started), target};
+  Embedded embedded(*std::move(started), target);
+  grpc::ChannelArguments arguments;
+  arguments.SetMaxReceiveMessageSize(-1);  // answers may have 64 MiB
+  embedded.channel = grpc::CreateCustomChannel(target, grpc::InsecureChannelCredentials(), arguments);
+  return embedded;
 }
 
 TEST(RandomRequests, EveryWorkedRequestSucceeds) {
