@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -119,6 +120,7 @@ int Main(int argc, char** argv) {
   ServerOptions server;
   std::string serve_config;
   AddServeFlags(*serve, server, serve_config);
+  serve->formatter(std::make_shared<CLI::Formatter>());  // its options have groups of their own
   CLI::App* completion =
       app.add_subcommand("completion", "print a script that completes commands and options");
   std::string shell = "bash";

@@ -69,7 +69,8 @@ class Sources(unittest.TestCase):
 
     def test_wrong_configuration_of_every_kind_is_one_error(self):
         def file(text):
-            return ["--config", self.folder.write("serve.conf", text)]
+            folder = self.enterContext(Folder())
+            return ["--config", folder.write("serve.conf", text)]
 
         for program in ([PATCHMILLD, "--listen", "127.0.0.1:0"], SERVE):
             for flags, env, words in [
