@@ -5,6 +5,7 @@ if(PATCHMILL_SERVICE)
   find_package(gRPC CONFIG REQUIRED)
   find_package(CLI11 CONFIG REQUIRED)
   find_package(spdlog CONFIG REQUIRED)
+  find_package(prometheus-cpp CONFIG QUIET COMPONENTS pull)  # without it patchmilld has no --metrics-listen
 endif()
 find_package(absl CONFIG REQUIRED)
 find_package(fmt CONFIG REQUIRED)

@@ -13,12 +13,12 @@ what="${1:-all}"
 build_packages=(
   g++ cmake ninja-build ccache pkg-config git ca-certificates
   libgrpc++-dev libgrpc-dev protobuf-compiler-grpc protobuf-compiler libprotobuf-dev libabsl-dev
-  libeigen3-dev libopenmesh-dev libtbb-dev libcli11-dev libfmt-dev libspdlog-dev libstb-dev fonts-dejavu-core
+  libeigen3-dev libopenmesh-dev libtbb-dev libcli11-dev libfmt-dev libspdlog-dev libssl-dev prometheus-cpp-dev libstb-dev fonts-dejavu-core
 )
 test_packages=(
   libgtest-dev libgmock-dev libbenchmark-dev librapidcheck-dev libcgal-dev
   python3 clang-format-14 linuxcnc-uspace librsvg2-bin python3-grpcio python3-protobuf chromium
-  python3-numpy python3-build python3-setuptools python3-wheel python3-venv mypy flake8 openssl libfaketime
+  python3-numpy python3-yaml curl python3-build python3-setuptools python3-wheel python3-venv mypy flake8 openssl libfaketime
 )
 cad_packages=(libocct-data-exchange-dev)  # Open CASCADE reads STEP and IGES; without it patchmill-import is not built
 case "$what" in

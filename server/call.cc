@@ -6,6 +6,7 @@
 #include <mutex>
 #include <new>
 #include <thread>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -80,6 +81,7 @@ absl::StatusOr<Places::Ticket> Enter(Places& places, const Call& call, const Wor
   Clock::time_point next_beat = Clock::now();
   Places::Waiting waiting;
   waiting.caller = call.caller;
+  if (&places == &call.env->jobs) waiting.most = call.env->callers.QuotasOf(call.caller).places.value_or(0);
   waiting.poll = std::chrono::milliseconds(limits::kCancelPollMs);
   const auto is_late = [&] { return call.deadline && Clock::now() >= *call.deadline; };
   waiting.gone = [&] { return !listens || Ended(call) || is_late(); };
@@ -144,12 +146,30 @@ class Memory {
   MemoryBudget budget_;
 };
 
+// Counts the seconds of a job for its caller.
+class JobSeconds {
+ public:
+  explicit JobSeconds(const Call& call) : call_(call) {}
+  // Counts those since the last time. RESOURCE_EXHAUSTED QUOTA_EXCEEDED.
+  absl::Status Count() {
+    const Clock::time_point now = Clock::now();
+    const double seconds = std::chrono::duration<double>(now - std::exchange(counted_, now)).count();
+    return call_.env->callers.TakeJobSeconds(call_.caller, seconds);
+  }
+
+ private:
+  const Call& call_;
+  Clock::time_point counted_ = Clock::now();
+};
+
 enum class Priority { kNormal, kLow };
 
 absl::Status RunInThread(const Call& call, const Work& work, JobProgress& progress, Priority priority,
                          const std::function<absl::Status(const RunContext&)>& body) {
   Memory memory(call.env->memory, call.env->shares.limit);
   PM_RETURN_IF_ERROR(memory.Start(work.memory_bytes));
+  JobSeconds seconds(call);
+  absl::Status quota;
   Board board;
   RunContext run(Threads(call.env->options.threads, work.max_threads));
   run.set_deadline(Deadline(call));
@@ -169,7 +189,8 @@ absl::Status RunInThread(const Call& call, const Work& work, JobProgress& progre
   while (!board.done) {
     board.changed.wait_for(lock, std::chrono::milliseconds(limits::kCancelPollMs));
     if (board.done) break;
-    if (Ended(call)) run.Cancel();
+    if (priority == Priority::kLow && quota.ok()) quota = seconds.Count();
+    if (Ended(call) || !quota.ok()) run.Cancel();
     if (!work.beat || run.Cancelled() || Clock::now() < next_beat) continue;
     next_beat = Clock::now() + std::chrono::milliseconds(limits::kHeartbeatMs);
     lock.unlock();  // a slow reader must not delay the work
@@ -178,6 +199,8 @@ absl::Status RunInThread(const Call& call, const Work& work, JobProgress& progre
   }
   lock.unlock();
   worker.Join();
+  if (!quota.ok()) return quota;
+  if (priority == Priority::kLow) (void)seconds.Count();
   if (memory.budget().Exceeded()) return memory.Exceeded();
   if (call.env->stopped.load() && !board.status.ok()) return DrainingError();
   // A cancel counts even if the work finished at the same time.
@@ -199,7 +222,8 @@ ServerEnv::ServerEnv(const ServerOptions& given, ReceivedBytes received, std::un
            given.max_queue),
       in_flight(static_cast<std::size_t>(shares.in_flight), std::move(received)),
       memory(shares.jobs),
-      store(static_cast<std::size_t>(shares.store)),
+      store(static_cast<std::size_t>(shares.store),
+            [this](const std::string& caller) { return callers.QuotasOf(caller).store_bytes; }),
       answers(store, std::move(disk)),
       running([this](const StoreKey& key, const std::string& from,
                      Messages messages) { answers.Put(key, from, std::move(messages)); },
@@ -217,6 +241,7 @@ absl::Status RunQuickCall(const Call& call, const Work& work,
 absl::Status RunJobCall(const Call& call, const Work& work,
                         const std::function<absl::Status(const RunContext&)>& body) {
   JobProgress progress;
+  PM_RETURN_IF_ERROR(call.env->callers.TakeJobSeconds(call.caller, 0.0));
   PM_ASSIGN_OR_RETURN(const Places::Ticket place, Enter(call.env->jobs, call, work, progress));
   progress.Queue(0);
   return RunInThread(call, work, progress, Priority::kLow, body);

@@ -21,6 +21,8 @@
 #include "server/memory_ledger.h"
 #include "server/memory_limit.h"
 #include "server/model_source.h"
+#include "server/operate/callers.h"
+#include "server/operate/metrics.h"
 #include "server/options.h"
 #include "server/places.h"
 #include "server/running_jobs.h"
@@ -35,6 +37,8 @@ struct ServerEnv {
 
   ServerOptions options;
   const MemoryShares shares;
+  Callers callers;
+  Metrics metrics;
   Places quick;  // for calls that take milliseconds
   Places jobs;   // for jobs
   InFlight in_flight;
@@ -78,7 +82,8 @@ struct Work {
 // could be granted.
 absl::Status RunQuickCall(const Call& call, const Work& work,
                           const std::function<absl::Status(const RunContext&)>& body);
-// The same for a job. While it waits for its place, its progress has the place in the queue.
+// The same for a job. While it waits for its place, its progress has the place in the queue. QUOTA_EXCEEDED
+// if the jobs of this caller have had their seconds of this day, also while this one runs.
 absl::Status RunJobCall(const Call& call, const Work& work,
                         const std::function<absl::Status(const RunContext&)>& body);
 

@@ -11,12 +11,12 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include "core/base/digest.h"
 #include "server/limits.h"
+#include "server/operate/log.h"
 
 namespace patchmill {
 namespace {
@@ -146,7 +146,7 @@ void DiskCache::Put(const StoreKey& key, const std::string& from, const Messages
     written = file.ok() && file.Write(std::string(kMagic) + Sha256(packed) + packed);
   }
   if (!written || rename(part.c_str(), path.c_str()) != 0) {
-    spdlog::warn("cache: an answer is not kept on disk: {}", std::strerror(errno));
+    Log(LogLevel::kWarning, fmt::format("cache: an answer is not kept on disk: {}", std::strerror(errno)));
     unlink(part.c_str());
     return;
   }
@@ -167,7 +167,7 @@ std::optional<Messages> DiskCache::Find(const StoreKey& key, const std::string& 
       const std::string_view packed = std::string_view(*bytes).substr(kMagic.size() + kDigestBytes);
       if (Sha256(packed) == bytes->substr(kMagic.size(), kDigestBytes)) messages = Unpack(packed);
     }
-    if (!messages) spdlog::warn("cache: {} is damaged and is removed", path);
+    if (!messages) Log(LogLevel::kWarning, fmt::format("cache: {} is damaged and is removed", path));
   }
   if (!messages) unlink(path.c_str());
   return messages;

@@ -246,6 +246,12 @@ grpc::Status ToGrpcStatus(const absl::Status& status) {
 }
 
 std::optional<std::chrono::milliseconds> RetryDelay(const absl::Status& status) {
+  if (const auto own = status.GetPayload(kRetryUrl)) {
+    v1::RetryInfo retry;
+    retry.ParseFromString(std::string(*own));
+    return std::chrono::milliseconds(1000 * retry.retry_delay().seconds() +
+                                     retry.retry_delay().nanos() / 1'000'000);
+  }
   const auto payload = status.GetPayload(kInfoUrl);
   v1::ErrorInfo info;
   if (!payload || !info.ParseFromString(std::string(*payload))) return std::nullopt;

@@ -27,7 +27,17 @@ absl::StatusOr<std::shared_ptr<grpc::ChannelCredentials>> Credentials(const Serv
 
 }  // namespace
 
-int CheckHealth(const std::string& target, const ServerOptions& options) {
+int CheckHealth(const std::string& target_and_service, const ServerOptions& options) {
+  // "HOST:PORT", or "HOST:PORT/liveness". A path of a Unix socket has slashes of its own.
+  const std::size_t slash =
+      target_and_service.starts_with("unix:") ? std::string::npos : target_and_service.find('/');
+  const std::string target = target_and_service.substr(0, slash);
+  const std::string service = slash == std::string::npos ? "" : target_and_service.substr(slash + 1);
+  if (service.size() > 100) {
+    fmt::print(stderr, "patchmill: --check-health {}; the name of the service is too long\n",
+               target_and_service);
+    return 1;
+  }
   const auto credentials = Credentials(options);
   if (!credentials.ok()) {
     fmt::print(stderr, "patchmill: {}\n", std::string(credentials.status().message()));
@@ -40,8 +50,10 @@ int CheckHealth(const std::string& target, const ServerOptions& options) {
       grpc::CreateChannel(target, *credentials));
   grpc::ClientContext context;
   context.set_deadline(std::chrono::system_clock::now() + std::chrono::seconds(3));
-  grpc::Slice empty;
-  const grpc::ByteBuffer request(&empty, 1);
+  std::string bytes_of_request;  // field 1 is the name
+  if (!service.empty()) bytes_of_request = std::string("\x0A") + static_cast<char>(service.size()) + service;
+  grpc::Slice asked(bytes_of_request);
+  const grpc::ByteBuffer request(&asked, 1);
   grpc::CompletionQueue queue;
   auto reader = stub.PrepareUnaryCall(&context, "/grpc.health.v1.Health/Check", request, &queue);
   reader->StartCall();

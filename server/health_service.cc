@@ -30,13 +30,13 @@ std::string HealthAnswer(int status) {
 
 }  // namespace
 
-HealthService::HealthService(InFlight& in_flight, double write_seconds) {
+HealthService::HealthService(InFlight& in_flight, CallRules rules) {
   std::vector<SmallMethod> methods;
   methods.push_back({"/grpc.health.v1.Health/Check", SmallMethod::Then::kEnd,
                      [this](const std::string& request) { return Check(request); }});
   methods.push_back({"/grpc.health.v1.Health/Watch", SmallMethod::Then::kWatch,
                      [this](const std::string& request) { return Watch(request); }});
-  service_ = MakeSmallService(std::move(methods), in_flight, write_seconds);
+  service_ = MakeSmallService(std::move(methods), in_flight, std::move(rules));
 }
 
 void HealthService::SetServing(const std::string& name, bool serving) {

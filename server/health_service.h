@@ -13,7 +13,7 @@ namespace patchmill {
 class HealthService {
  public:
   // Arguments as MakeSmallService.
-  HealthService(InFlight& in_flight, double write_seconds);
+  HealthService(InFlight& in_flight, CallRules rules);
   grpc::Service* service() { return service_.get(); }
   // Of the service of that name, "" for the server as a whole. A name is unknown until it is set.
   void SetServing(const std::string& name, bool serving);

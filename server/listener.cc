@@ -9,7 +9,6 @@
 #include <linux/tcp.h>
 #include <netinet/in.h>
 #include <poll.h>
-#include <spdlog/spdlog.h>
 #include <sys/eventfd.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
@@ -18,6 +17,7 @@
 
 #include "core/base/status.h"
 #include "server/limits.h"
+#include "server/operate/log.h"
 
 namespace patchmill {
 namespace {
@@ -169,8 +169,9 @@ bool Listener::AcceptOne(int listening, const Accepted& accepted) {
   if (socket >= max_connections_) {
     close(socket);
     if (refused_++ % 1000 == 0) {
-      spdlog::warn("{} connections are open, as many as there may be; {} refused so far", max_connections_,
-                   refused_);
+      Log(LogLevel::kWarning,
+          fmt::format("{} connections are open, as many as there may be; {} refused so far", max_connections_,
+                      refused_));
     }
     return true;
   }

@@ -17,6 +17,8 @@
 #include "server/digest.h"
 #include "server/importer.h"
 #include "server/limits.h"
+#include "server/operate/caller_errors.h"
+#include "server/operate/process_counts.h"
 #include "server/unknown_fields.h"
 #include "server/wire_count.h"
 #include "server/wire_limits.h"
@@ -320,6 +322,7 @@ absl::StatusOr<LoadedModel> LoadCad(const v1::ModelFile& file, std::string_view 
     }
   }
   const absl::StatusOr<Imported> imported = ImportFile(file.content(), params, run, access.in_flight);
+  if (!imported.ok() && !run.Cancelled()) Counts().failed_imports.fetch_add(1);
   if (CodeOf(imported.status()) == "UNKNOWN_FACE") {
     errors.Add(At(at, "import_options.skip_faces"), std::string(imported.status().message()));
     return errors.ToStatus();
@@ -484,6 +487,10 @@ absl::Status KeepModel(const LoadedModel& loaded, const v1::ModelSource& source,
   if (access.store->Put<StoredModel>({Stored::kModel, access.caller, loaded.digest},
                                      std::make_shared<const StoredModel>(std::move(stored)), bytes))
     return absl::OkStatus();
+  const std::size_t share = access.store->LimitOf(access.caller);
+  if (share < access.store->limit_bytes() && bytes <= access.store->limit_bytes())
+    return QuotaError("caller_store_bytes", static_cast<double>(share), static_cast<double>(bytes),
+                      std::nullopt);
   return LimitError("stored_model_bytes", static_cast<double>(access.store->limit_bytes()),
                     static_cast<double>(bytes), "patchmilld --store-mib sets the limit");
 }

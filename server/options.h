@@ -23,7 +23,10 @@ struct ServerOptions {
   double cache_days = 7.0;          // an answer is used for so long
   // PEM files. cert and key switch TLS on. With ca, clients must have a certificate of that authority.
   std::string ca_file, cert_file, key_file;
+  std::string tokens_file;              // who may call (callers_file.h); empty: anybody
   bool insecure = false;                // listens beyond loopback without TLS
+  std::string metrics_listen;           // HOST:PORT, or PORT of loopback, for Prometheus; empty: nowhere
+  std::string log_format = "text";      // or "json"
   bool log_requests = true;             // one line per call on stderr
   bool lower_priority_of_jobs = false;  // calls of milliseconds come first (lower_priority.h)
   double estimate_factor = 1.0;         // for tests: times the estimated memory of jobs

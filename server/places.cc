@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "server/errors.h"
+#include "server/operate/caller_errors.h"
 
 namespace patchmill {
 
@@ -48,6 +49,7 @@ void Places::Choose() {
       if (waiter.chosen) continue;
       const auto at = runs_.find(waiter.caller);
       const int runs = at == runs_.end() ? 0 : at->second;
+      if (waiter.most > 0 && runs >= waiter.most) continue;
       if (next == nullptr || runs < fewest) {
         next = &waiter;
         fewest = runs;
@@ -73,11 +75,22 @@ int Places::PlaceOf(const Waiter& waiter) const {
 absl::StatusOr<Places::Ticket> Places::Enter(const Waiting& call) {
   std::unique_lock<std::mutex> lock(mutex_);
   if (draining_) return DrainingError();
-  const int not_chosen = static_cast<int>(
-      std::count_if(waiters_.begin(), waiters_.end(), [](const Waiter& w) { return !w.chosen; }));
-  if (running_ >= places_ && not_chosen >= queue_) return TooManyJobsError(places_, queue_);
-  const auto self = waiters_.insert(waiters_.end(), Waiter{call.caller});
+  const auto self = waiters_.insert(waiters_.end(), Waiter{call.caller, call.most});
   Choose();
+  if (!self->chosen) {
+    int all = 0, own = 0;  // calls that wait, this one among them
+    for (const Waiter& waiter : waiters_) {
+      all += !waiter.chosen;
+      own += !waiter.chosen && waiter.caller == call.caller;
+    }
+    const bool is_full = all > queue_;
+    if (is_full || (call.most > 0 && own > kWaitingForEach * call.most)) {
+      waiters_.erase(self);
+      if (is_full) return TooManyJobsError(places_, queue_);
+      const int quota = (1 + kWaitingForEach) * call.most;
+      return QuotaError("caller_jobs", quota, quota + 1, std::chrono::seconds(2));
+    }
+  }
   absl::Status ended;
   while (!self->chosen) {
     if (draining_) {

@@ -43,11 +43,13 @@ class Places {
   // A call that waits for a place.
   struct Waiting {
     std::string caller;                       // empty: nobody in particular
+    int most = 0;                             // calls of this caller that run at once; 0: any number
     std::function<bool()> gone;               // true: the call need not wait any longer
     std::function<void(int place)> on_place;  // may be empty; called every now and then, from 1
     std::chrono::milliseconds poll{50};       // `gone` and `on_place` are called this often
   };
-  // Waits for a place. RESOURCE_EXHAUSTED TOO_MANY_JOBS if the queue is full, UNAVAILABLE DRAINING while the
+  // Waits for a place. RESOURCE_EXHAUSTED: TOO_MANY_JOBS if the queue is full, QUOTA_EXCEEDED if
+  // kWaitingForEach calls wait for each place that this caller may have. UNAVAILABLE DRAINING while the
   // server drains, CANCELLED if the call is gone.
   absl::StatusOr<Ticket> Enter(const Waiting& call);
 
@@ -57,13 +59,16 @@ class Places {
   void Drain();
   int running() const;
   int waiting() const;
+  int places() const { return places_; }
 
  private:
   struct Waiter {
     std::string caller;
+    int most = 0;
     bool chosen = false;
   };
 
+  static constexpr int kWaitingForEach = 4;
   void Leave(const std::string& caller);
   void Choose();  // gives free places to waiters
   int PlaceOf(const Waiter& waiter) const;

@@ -1,5 +1,6 @@
 #include "server/raw_service.h"
 
+#include <algorithm>
 #include <atomic>
 #include <condition_variable>
 #include <exception>
@@ -32,8 +33,7 @@ std::optional<std::chrono::steady_clock::time_point> Steady(std::chrono::system_
 
 struct Shared {
   InFlight& in_flight;
-  CallLog log;
-  double write_seconds;
+  CallRules rules;
 };
 
 absl::Status Guarded(const RawMethod& method, RawCall& call) {
@@ -47,11 +47,26 @@ absl::Status Guarded(const RawMethod& method, RawCall& call) {
 }
 
 // The common name in the certificate of the other side.
-std::string CallerOf(const grpc::CallbackServerContext& context) {
+std::string CertificateName(const grpc::CallbackServerContext& context) {
   const auto authentic = context.auth_context();
   if (!authentic || !authentic->IsPeerAuthenticated()) return {};
   const auto names = authentic->FindPropertyValues("x509_common_name");
   return names.empty() ? std::string() : std::string(names.front().data(), names.front().size());
+}
+
+absl::StatusOr<std::string> CallerOf(const Shared& shared, const grpc::CallbackServerContext& context) {
+  return shared.rules.admit ? shared.rules.admit(PresentedBy(context)) : CertificateName(context);
+}
+
+std::int64_t NextNumber() {
+  static std::atomic<std::int64_t> number{0};
+  return ++number;
+}
+
+std::string RequestIdOf(const grpc::CallbackServerContext& context) {
+  const auto at = context.client_metadata().find("x-request-id");
+  if (at == context.client_metadata().end()) return {};
+  return std::string(at->second.data(), std::min(at->second.size(), limits::kMaxRequestIdBytes));
 }
 
 // A call from its start to its end. gRPC calls the On... functions from its own threads.
@@ -62,6 +77,11 @@ class Reactor final : public grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::Byt
     const auto reactor = std::make_shared<Reactor>(method, shared, context);
     const std::lock_guard<std::mutex> lock(reactor->mutex_);
     reactor->self_ = reactor;
+    if (shared.rules.begins) shared.rules.begins(reactor->Record());
+    if (!reactor->admitted_.ok()) {
+      reactor->End(Phase::kReceiving, reactor->admitted_);
+      return reactor.get();
+    }
     reactor->StartRead(&reactor->request_);  // begins once gRPC has the reactor
     const std::weak_ptr<Reactor> weak = reactor;
     reactor->expected_ = shared.in_flight.Expect(reactor->peer_, [weak](const absl::Status& status) {
@@ -77,8 +97,12 @@ class Reactor final : public grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::Byt
         begin_(std::chrono::steady_clock::now()),
         deadline_(Steady(context->deadline())),
         peer_(context->peer()),
-        caller_(CallerOf(*context)),
-        label_(method.path.substr(method.path.rfind('/') + 1)) {}
+        number_(NextNumber()),
+        request_id_(RequestIdOf(*context)) {
+    absl::StatusOr<std::string> caller = CallerOf(shared, *context);
+    admitted_ = caller.status();
+    if (caller.ok()) caller_ = *std::move(caller);
+  }
 
   grpc::ByteBuffer& request() override { return request_; }
   void DropRequest() override {
@@ -88,7 +112,7 @@ class Reactor final : public grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::Byt
   const std::string& caller() const override { return caller_; }
   std::optional<std::chrono::steady_clock::time_point> deadline() const override { return deadline_; }
   bool Cancelled() const override { return cancelled_.load(); }
-  void SetLabel(std::string label) override { label_ = std::move(label); }
+  void SetRequestId(std::string id) override { request_id_ = std::move(id); }
 
   bool ReadNext() override {
     if (Cancelled()) return false;
@@ -124,7 +148,7 @@ class Reactor final : public grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::Byt
     StartWrite(&response_);
     lock.lock();
     const auto written = [this] { return !writing_; };
-    if (!written_.wait_for(lock, std::chrono::duration<double>(shared_.write_seconds), written)) {
+    if (!written_.wait_for(lock, std::chrono::duration<double>(shared_.rules.write_seconds), written)) {
       late_ = true;
       context_->TryCancel();  // gRPC gives the message up, and tells that it is not written
       written_.wait(lock, written);
@@ -231,14 +255,32 @@ class Reactor final : public grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::Byt
 
   absl::Status LateError() const {
     return absl::DeadlineExceededError(
-        fmt::format("the client has not taken an answer within {} s", shared_.write_seconds));
+        fmt::format("the client has not taken an answer within {} s", shared_.rules.write_seconds));
+  }
+
+  CallRecord Record() const {
+    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin_;
+    return {
+        number_, method_.path.substr(method_.path.rfind('/') + 1), caller_, peer_, request_id_, took.count(),
+        {}};
+  }
+
+  // A client cancels its call when its deadline passes: then the deadline is the reason.
+  absl::Status TrueReason(const absl::Status& status) const {
+    constexpr std::chrono::milliseconds kWay{100};  // by which the client's clock may be ahead
+    if (!absl::IsCancelled(status) || !deadline_) return status;
+    if (*deadline_ - std::chrono::steady_clock::now() > kWay) return status;
+    return absl::DeadlineExceededError("the deadline of the caller has passed");
   }
 
   // Ends the call with `status` if it is in the phase `in`. No member may be used afterwards.
   void End(Phase in, const absl::Status& status) {
     if (!phase_.compare_exchange_strong(in, Phase::kEnded)) return;
-    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin_;
-    if (shared_.log) shared_.log({label_, peer_, took.count(), status});
+    if (shared_.rules.ends) {
+      CallRecord record = Record();
+      record.status = TrueReason(status);
+      shared_.rules.ends(record);
+    }
     if (const auto delay = RetryDelay(status))
       context_->AddTrailingMetadata("grpc-retry-pushback-ms", std::to_string(delay->count()));
     Finish(ToGrpcStatus(status));
@@ -249,8 +291,10 @@ class Reactor final : public grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::Byt
   grpc::CallbackServerContext* const context_;
   const std::chrono::steady_clock::time_point begin_;
   const std::optional<std::chrono::steady_clock::time_point> deadline_;
-  const std::string peer_, caller_;
-  std::string label_;
+  const std::string peer_;
+  const std::int64_t number_;
+  std::string caller_, request_id_;
+  absl::Status admitted_;  // whether the call may be made
   std::shared_ptr<Reactor> self_;
   InFlight::Id expected_ = 0;
   grpc::ByteBuffer request_, response_;
@@ -271,8 +315,8 @@ class Reactor final : public grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::Byt
 // client of a unary or server-streaming method sees no difference.
 class RawService final : public grpc::Service {
  public:
-  RawService(std::vector<RawMethod> methods, InFlight& in_flight, CallLog log, double write_seconds)
-      : methods_(std::move(methods)), shared_{in_flight, std::move(log), write_seconds} {
+  RawService(std::vector<RawMethod> methods, InFlight& in_flight, CallRules rules)
+      : methods_(std::move(methods)), shared_{in_flight, std::move(rules)} {
     for (std::size_t k = 0; k < methods_.size(); ++k) {
       const RawMethod& method = methods_[k];
       AddMethod(new grpc::internal::RpcServiceMethod(method.path.c_str(),
@@ -292,9 +336,17 @@ class RawService final : public grpc::Service {
 
 }  // namespace
 
+Presented PresentedBy(const grpc::CallbackServerContext& context) {
+  Presented presented;
+  presented.certificate = CertificateName(context);
+  const auto [first, last] = context.client_metadata().equal_range("authorization");
+  if (first != last) presented.authorization.emplace(first->second.data(), first->second.size());
+  return presented;
+}
+
 std::unique_ptr<grpc::Service> MakeRawService(std::vector<RawMethod> methods, InFlight& in_flight,
-                                              CallLog log, double write_seconds) {
-  return std::make_unique<RawService>(std::move(methods), in_flight, std::move(log), write_seconds);
+                                              CallRules rules) {
+  return std::make_unique<RawService>(std::move(methods), in_flight, std::move(rules));
 }
 
 }  // namespace patchmill

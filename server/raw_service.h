@@ -3,6 +3,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -10,11 +11,14 @@
 #include <vector>
 
 #include <absl/status/status.h>
+#include <absl/status/statusor.h>
 #include <google/protobuf/message.h>
 #include <grpcpp/impl/service_type.h>
+#include <grpcpp/server_context.h>
 #include <grpcpp/support/byte_buffer.h>
 
 #include "server/in_flight.h"
+#include "server/operate/callers.h"
 
 namespace patchmill {
 
@@ -29,7 +33,7 @@ class RawCall {
   // Waits for the next message of a request of several, which request() then has. False: there is none any
   // more, or the call has ended. The call's own thread may end it with an error then.
   virtual bool ReadNext() = 0;
-  // Who calls: the name in its certificate. Empty where nobody says who he is.
+  // Who calls: the name of its token or certificate. Empty where nobody says who he is.
   virtual const std::string& caller() const = 0;
   // When the caller's time is up. By the steady clock: the time of day may jump while a call runs.
   virtual std::optional<std::chrono::steady_clock::time_point> deadline() const = 0;
@@ -38,8 +42,8 @@ class RawCall {
   // message in time.
   virtual bool Write(const google::protobuf::Message& response) = 0;
   virtual bool Write(const grpc::ByteBuffer& response) = 0;  // the bytes of one message
-  // Sets the name of the call in the log. Default: the name of the method.
-  virtual void SetLabel(std::string label) = 0;
+  // Sets the name of the request in the log.
+  virtual void SetRequestId(std::string id) = 0;
 };
 
 struct RawMethod {
@@ -48,18 +52,31 @@ struct RawMethod {
   std::function<absl::Status(RawCall&)> run;
 };
 
-// A call that has ended. Each call is logged once.
+// A call, as the log and the metrics see it.
 struct CallRecord {
-  std::string label, peer;
-  double seconds = 0.0;  // from its start, with the time that its request took to arrive
-  absl::Status status;
+  std::int64_t number = 0;  // of the calls of this process
+  std::string method, caller, peer;
+  std::string request_id;  // of the request, or else of the metadata x-request-id
+  double seconds = 0.0;    // from its start, with the time that its request took to arrive
+  absl::Status status;     // why it ended; with the true reason where the client sees another one
 };
 using CallLog = std::function<void(const CallRecord&)>;
 
+// Says who calls, or why the call is refused before its request is read.
+using Admission = std::function<absl::StatusOr<std::string>(const Presented&)>;
+Presented PresentedBy(const grpc::CallbackServerContext& context);
+
+// What the calls of a service share.
+struct CallRules {
+  CallLog begins;               // may be empty; without a status
+  CallLog ends;                 // may be empty
+  Admission admit;              // empty: anybody may call, by the name in the certificate
+  double write_seconds = 60.0;  // a client that does not take a response within this time is cut off
+};
+
 // A service of these methods; each may send any number of responses. Requests are counted in `in_flight`,
-// which must outlive the service. A call that is refused there never runs. A client that does not take a
-// response within `write_seconds` is cut off.
+// which must outlive the service. A call that is refused there never runs.
 std::unique_ptr<grpc::Service> MakeRawService(std::vector<RawMethod> methods, InFlight& in_flight,
-                                              CallLog log, double write_seconds);
+                                              CallRules rules);
 
 }  // namespace patchmill

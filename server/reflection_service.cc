@@ -155,12 +155,12 @@ absl::StatusOr<std::string> Reflect(const std::string& request, const std::vecto
 }  // namespace
 
 std::unique_ptr<SmallService> MakeReflectionService(std::vector<std::string> services, InFlight& in_flight,
-                                                    double write_seconds) {
+                                                    CallRules rules) {
   std::vector<SmallMethod> methods;
   methods.push_back(
       {"/grpc.reflection.v1alpha.ServerReflection/ServerReflectionInfo", SmallMethod::Then::kRead,
        [services = std::move(services)](const std::string& request) { return Reflect(request, services); }});
-  return MakeSmallService(std::move(methods), in_flight, write_seconds);
+  return MakeSmallService(std::move(methods), in_flight, std::move(rules));
 }
 
 }  // namespace patchmill

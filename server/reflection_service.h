@@ -11,6 +11,6 @@ namespace patchmill {
 
 // Lists these services. Other arguments as MakeSmallService.
 std::unique_ptr<SmallService> MakeReflectionService(std::vector<std::string> services, InFlight& in_flight,
-                                                    double write_seconds);
+                                                    CallRules rules);
 
 }  // namespace patchmill

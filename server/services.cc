@@ -7,18 +7,21 @@
 
 #include <grpcpp/grpcpp.h>
 #include <grpcpp/impl/codegen/proto_utils.h>
-#include <spdlog/spdlog.h>
 
 #include "core/base/digest.h"
 #include "core/base/status.h"
 #include "patchmill/v1/analysis_service.grpc.pb.h"
 #include "patchmill/v1/model_service.grpc.pb.h"
+#include "patchmill/v1/server_service.grpc.pb.h"
+#include "patchmill/v1/status.pb.h"
 #include "patchmill/v1/toolpath_service.grpc.pb.h"
 #include "server/answer.h"
 #include "server/errors.h"
+#include "server/handlers/get_capabilities.h"
 #include "server/handlers/handlers.h"
 #include "server/importer.h"
 #include "server/limits.h"
+#include "server/operate/log.h"
 #include "server/parse_request.h"
 #include "server/raw_service.h"
 #include "server/running_jobs.h"
@@ -35,23 +38,54 @@ Call MakeCall(ServerEnv* env, const RawCall& raw) {
   return call;
 }
 
-// Makes one line for the log of a text that may come from a client.
-std::string OneLine(std::string text) {
-  for (char& c : text) {
-    if (c < ' ' || c > '~') c = ' ';
+// The reason that a program switches on; empty for OK.
+v1::ErrorInfo InfoOf(const absl::Status& status) {
+  v1::ErrorInfo info;
+  v1::Status wire;
+  if (!status.ok() && wire.ParseFromString(ToGrpcStatus(status).error_details()) && wire.details_size() > 0)
+    wire.details(0).UnpackTo(&info);
+  return info;
+}
+
+LogFields FieldsOf(const CallRecord& call) {
+  return {{"call", call.number},
+          {"method", call.method},
+          {"request_id", call.request_id},
+          {"caller", call.caller},
+          {"peer", call.peer}};
+}
+
+void LogBegin(const CallRecord& call) { Log(LogLevel::kInfo, "call begins", FieldsOf(call)); }
+
+// Whether the message of a status has words of our own only. Others may have words of a model.
+bool IsOurs(const absl::Status& status) {
+  return absl::IsInternal(status) || absl::IsCancelled(status) || absl::IsDeadlineExceeded(status) ||
+         absl::IsUnavailable(status);
+}
+
+void LogEnd(const CallRecord& call, const v1::ErrorInfo& info) {
+  LogFields fields = FieldsOf(call);
+  fields.emplace_back("code", absl::StatusCodeToString(call.status.code()));
+  fields.emplace_back("reason", info.reason());
+  if (!info.limit().empty()) {
+    fields.emplace_back("limit", info.limit());
+    fields.emplace_back("limit_value", info.limit_value());
+    fields.emplace_back("actual_value", info.actual_value());
   }
-  return text;
+  if (info.violation_count() > 0) fields.emplace_back("wrong_fields", std::int64_t{info.violation_count()});
+  if (IsOurs(call.status)) fields.emplace_back("what", std::string(call.status.message()));
+  fields.emplace_back("seconds", call.seconds);
+  const bool notable = absl::IsUnauthenticated(call.status) || absl::IsResourceExhausted(call.status);
+  const LogLevel level = absl::IsInternal(call.status) ? LogLevel::kError
+                         : notable                     ? LogLevel::kWarning
+                                                       : LogLevel::kInfo;
+  Log(level, "call ends", fields);
 }
 
-void Log(const CallRecord& call) {
-  spdlog::info("{} {} {:.3f} s {} {}", call.label, absl::StatusCodeToString(call.status.code()), call.seconds,
-               call.peer, OneLine(std::string(call.status.message())));
-}
-
-void LabelCall(const google::protobuf::Message&, RawCall&) {}
-void LabelCall(const v1::GenerateProgramRequest& request, RawCall& call) {
-  const std::string id = OneLine(request.request_id().substr(0, limits::kMaxRequestIdBytes));
-  if (!id.empty()) call.SetLabel("GenerateProgram [" + id + "]");
+void NameRequest(const google::protobuf::Message&, RawCall&) {}
+void NameRequest(const v1::GenerateProgramRequest& request, RawCall& call) {
+  if (!request.request_id().empty())
+    call.SetRequestId(request.request_id().substr(0, limits::kMaxRequestIdBytes));
 }
 
 // Runs a call: counts and parses the request, then calls the handler. The request is freed before the answer
@@ -60,7 +94,7 @@ template <class Request, class Body>
 absl::Status Run(ServerEnv* env, RawCall& raw, const Body& body) {
   Request request;
   PM_ASSIGN_OR_RETURN(const InFlight::Hold hold, ParseRequest(raw, env->in_flight, request));
-  LabelCall(request, raw);
+  NameRequest(request, raw);
   return body(MakeCall(env, raw), request);
 }
 
@@ -236,7 +270,7 @@ RawMethod Stream(ServerEnv* env, std::string path, StreamHandler<Request, Respon
             PM_RETURN_IF_ERROR(env->jobs.CheckOpen());
             auto owned = std::make_shared<Owned<Request>>();
             PM_ASSIGN_OR_RETURN(owned->held, ParseRequest(raw, env->in_flight, owned->request));
-            LabelCall(owned->request, raw);
+            NameRequest(owned->request, raw);
             StoreKey key{Stored::kAnswer, raw.caller(), {}};
             PM_ASSIGN_OR_RETURN(key.digest, AnswerDigest(env, method, key.caller, owned->request));
             if (const auto kept = env->answers.Find(key, ModelIn(owned->request))) {
@@ -307,9 +341,17 @@ class ServiceBuilder {
     return *this;
   }
   NamedService Build() {
-    return {name_, MakeRawService(std::move(methods_), env_->in_flight,
-                                  env_->options.log_requests ? CallLog(Log) : CallLog(),
-                                  env_->options.max_write_seconds)};
+    CallRules rules;
+    const bool logs = env_->options.log_requests;
+    if (logs) rules.begins = LogBegin;
+    rules.ends = [env = env_, logs](const CallRecord& call) {
+      const v1::ErrorInfo info = InfoOf(call.status);
+      env->metrics.CallEnded(call.method, call.status, info.reason(), call.seconds);
+      if (logs) LogEnd(call, info);
+    };
+    rules.admit = [env = env_](const Presented& presented) { return env->callers.Admit(presented); };
+    rules.write_seconds = env_->options.max_write_seconds;
+    return {name_, MakeRawService(std::move(methods_), env_->in_flight, std::move(rules))};
   }
 
  private:
@@ -344,6 +386,9 @@ std::vector<NamedService> MakeServices(ServerEnv* env) {
                          .Add("GenerateProgram", HandleGenerateProgram)
                          .Add("VerifyProgram", HandleVerifyProgram)
                          .Add("ListPosts", HandleListPosts)
+                         .Build());
+  services.push_back(ServiceBuilder(env, v1::ServerService::service_full_name())
+                         .Add("GetCapabilities", HandleGetCapabilities)
                          .Build());
   return services;
 }

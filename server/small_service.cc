@@ -64,7 +64,7 @@ class Watchers {
 
 struct SmallShared {
   InFlight& in_flight;
-  double write_seconds;
+  CallRules rules;
   Watchers watchers;
 };
 
@@ -78,6 +78,12 @@ class SmallCall final : public grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::B
     const auto call = std::make_shared<SmallCall>(method, shared, context);
     const std::lock_guard<std::mutex> lock(call->mutex_);
     call->self_ = call;
+    if (shared.rules.admit) {
+      if (const auto caller = shared.rules.admit(PresentedBy(*context)); !caller.ok()) {
+        call->End(caller.status());
+        return call.get();
+      }
+    }
     if (method.then == Then::kWatch) shared.watchers.Add(call);
     call->Read();
     return call.get();
@@ -179,7 +185,8 @@ class SmallCall final : public grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::B
   // Cuts the call off where its answer has not been taken in time.
   void SetLate() {
     const std::weak_ptr<SmallCall> weak = weak_from_this();
-    const auto limit = std::chrono::milliseconds(static_cast<std::int64_t>(1000.0 * shared_.write_seconds));
+    const auto limit =
+        std::chrono::milliseconds(static_cast<std::int64_t>(1000.0 * shared_.rules.write_seconds));
     late_.emplace().Set(std::chrono::system_clock::now() + limit, [weak](bool is_late) {
       const auto call = is_late ? weak.lock() : nullptr;
       if (!call) return;
@@ -212,8 +219,8 @@ class SmallCall final : public grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::B
 // read.
 class CallbackSmallService final : public SmallService {
  public:
-  CallbackSmallService(std::vector<SmallMethod> methods, InFlight& in_flight, double write_seconds)
-      : methods_(std::move(methods)), shared_{in_flight, write_seconds, {}} {
+  CallbackSmallService(std::vector<SmallMethod> methods, InFlight& in_flight, CallRules rules)
+      : methods_(std::move(methods)), shared_{in_flight, std::move(rules), {}} {
     for (std::size_t k = 0; k < methods_.size(); ++k) {
       const SmallMethod& method = methods_[k];
       AddMethod(new grpc::internal::RpcServiceMethod(method.path.c_str(),
@@ -238,8 +245,8 @@ class CallbackSmallService final : public SmallService {
 }  // namespace
 
 std::unique_ptr<SmallService> MakeSmallService(std::vector<SmallMethod> methods, InFlight& in_flight,
-                                               double write_seconds) {
-  return std::make_unique<CallbackSmallService>(std::move(methods), in_flight, write_seconds);
+                                               CallRules rules) {
+  return std::make_unique<CallbackSmallService>(std::move(methods), in_flight, std::move(rules));
 }
 
 }  // namespace patchmill

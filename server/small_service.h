@@ -11,6 +11,7 @@
 #include <grpcpp/impl/service_type.h>
 
 #include "server/in_flight.h"
+#include "server/raw_service.h"
 
 namespace patchmill {
 
@@ -30,9 +31,8 @@ class SmallService : public grpc::Service {
 };
 
 // A request beyond limits::kMaxSmallMessageBytes is LIMIT_EXCEEDED. Requests and answers are counted in
-// `in_flight`, which outlives the service. A client that does not take an answer within `write_seconds` is
-// cut off.
+// `in_flight`, which outlives the service. `rules` has no log.
 std::unique_ptr<SmallService> MakeSmallService(std::vector<SmallMethod> methods, InFlight& in_flight,
-                                               double write_seconds);
+                                               CallRules rules);
 
 }  // namespace patchmill

@@ -1,36 +1,56 @@
 #include "server/store.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace patchmill {
 
-void Store::Erase(Entries::iterator entry) {
+void Store::Forget(Entries::iterator entry, Entries& forgotten) {
   bytes_ -= entry->bytes;
+  const auto of_caller = bytes_of_.find(entry->key.caller);
+  of_caller->second -= entry->bytes;
+  if (of_caller->second == 0) bytes_of_.erase(of_caller);
   by_key_.erase(entry->key);
-  entries_.erase(entry);
+  forgotten.splice(forgotten.end(), entries_, entry);
+}
+
+void Store::Erase(Entries::iterator entry) {
+  Entries forgotten;
+  Forget(entry, forgotten);
+}
+
+std::size_t Store::LimitOf(const std::string& caller) const {
+  const std::optional<std::int64_t> share = share_of_ ? share_of_(caller) : std::nullopt;
+  return share ? std::min(limit_, static_cast<std::size_t>(*share)) : limit_;
 }
 
 bool Store::PutAny(const StoreKey& key, std::any value, std::size_t bytes, std::string from) {
   constexpr std::size_t kEntryBytes = 500;  // of the entry itself
   bytes += kEntryBytes;
+  const std::size_t limit = LimitOf(key.caller);
   Entries forgotten;  // destroyed without the lock
   const std::lock_guard<std::mutex> lock(mutex_);
-  if (const auto at = by_key_.find(key); at != by_key_.end()) {
-    bytes_ -= at->second->bytes;
-    forgotten.splice(forgotten.end(), entries_, at->second);
-    by_key_.erase(at);
+  if (const auto at = by_key_.find(key); at != by_key_.end()) Forget(at->second, forgotten);
+  if (bytes > (key.kind == Stored::kModel ? limit : limit / 4)) return false;
+  const auto taken = [&] {
+    const auto at = bytes_of_.find(key.caller);
+    return at == bytes_of_.end() ? std::size_t{0} : at->second;
+  };
+  for (auto entry = entries_.end(); limit < limit_ && taken() + bytes > limit;) {
+    --entry;
+    if (entry->key.caller != key.caller) continue;
+    const auto own = entry++;
+    Forget(own, forgotten);
+    ++forgotten_;
   }
-  if (bytes > (key.kind == Stored::kModel ? limit_ : limit_ / 4)) return false;
   while (bytes_ + bytes > limit_) {
-    const auto last = std::prev(entries_.end());
-    bytes_ -= last->bytes;
-    by_key_.erase(last->key);
-    forgotten.splice(forgotten.end(), entries_, last);
+    Forget(std::prev(entries_.end()), forgotten);
     ++forgotten_;
   }
   entries_.push_front({key, std::move(value), bytes, std::move(from)});
   by_key_.emplace(key, entries_.begin());
   bytes_ += bytes;
+  bytes_of_[key.caller] += bytes;
   return true;
 }
 

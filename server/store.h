@@ -5,10 +5,13 @@
 
 #include <any>
 #include <cstddef>
+#include <cstdint>
+#include <functional>
 #include <list>
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <tuple>
@@ -28,10 +31,14 @@ struct StoreKey {
 // Any thread may call it. Values are shared and never change.
 class Store {
  public:
-  explicit Store(std::size_t limit_bytes) : limit_(limit_bytes) {}
+  // The most bytes that the values of a caller may have; nothing: the whole limit.
+  using ShareOf = std::function<std::optional<std::int64_t>(const std::string& caller)>;
+  explicit Store(std::size_t limit_bytes, ShareOf share_of = {})
+      : limit_(limit_bytes), share_of_(std::move(share_of)) {}
 
   // Keeps a value of about `bytes`, in place of one with the same key. False if it is too large: a model may
-  // take the whole limit, any other value a quarter of it. `from` is the digest of the model that an answer
+  // take the whole limit of its caller, any other value a quarter of it. A caller beyond its share loses
+  // values of its own. `from` is the digest of the model that an answer
   // was made from.
   template <class T>
   bool Put(const StoreKey& key, std::shared_ptr<const T> value, std::size_t bytes, std::string from = {}) {
@@ -54,6 +61,8 @@ class Store {
   };
   Figures figures() const;
   std::size_t limit_bytes() const { return limit_; }
+  // Of the values of one caller.
+  std::size_t LimitOf(const std::string& caller) const;
 
  private:
   struct Entry {
@@ -68,10 +77,14 @@ class Store {
   std::any FindAny(const StoreKey& key);
   void Erase(Entries::iterator entry);
 
+  void Forget(Entries::iterator entry, Entries& forgotten);
+
   const std::size_t limit_;
+  const ShareOf share_of_;
   mutable std::mutex mutex_;
   Entries entries_;  // used last comes first
   std::map<StoreKey, Entries::iterator> by_key_;
+  std::map<std::string, std::size_t> bytes_of_;  // by caller
   std::size_t bytes_ = 0, found_ = 0, missed_ = 0, forgotten_ = 0;
 };
 

@@ -1,8 +1,10 @@
 #include "clients/cli/connection.h"
 
+#include <algorithm>
 #include <chrono>
 #include <string_view>
 
+#include <absl/strings/ascii.h>
 #include <absl/strings/match.h>
 #include <absl/strings/numbers.h>
 #include <fmt/format.h>
@@ -63,8 +65,10 @@ std::string ServerTrouble(const grpc::Status& status, const std::string& server)
   const std::string& message = status.error_message();
   const std::string reason = InfoOf(status).reason();
   if (reason == "DRAINING" || reason == "TOO_MANY_JOBS" || reason == "TOO_MANY_BYTES" ||
-      reason == "TOO_MUCH_MEMORY")
+      reason == "TOO_MUCH_MEMORY" || reason == "QUOTA_EXCEEDED")
     return fmt::format("{}: {}", server, message);
+  if (status.error_code() == grpc::StatusCode::UNAUTHENTICATED)
+    return fmt::format("{} does not know the caller: {}", server, message);
   if (status.error_code() == grpc::StatusCode::CANCELLED)
     return fmt::format("{} ended the call: it shuts down, or the answer was read too slowly", server);
   if (!reason.empty()) return "";
@@ -113,7 +117,26 @@ absl::StatusOr<std::shared_ptr<grpc::ChannelCredentials>> Credentials(const Comm
   return grpc::SslCredentials(ssl);
 }
 
+// Whether an address stays on this machine.
+bool IsLoopback(const std::string& address) {
+  if (absl::StartsWith(address, "unix")) return true;
+  const std::string host = address.substr(0, address.rfind(':'));
+  return absl::StartsWith(host, "127.") || host == "localhost" || host == "[::1]";
+}
+
 }  // namespace
+
+absl::StatusOr<std::string> ReadTokenFile(const std::string& path) {
+  absl::StatusOr<std::string> text = ReadWholeFile(path);
+  if (!text.ok()) return text.status();
+  std::string token(absl::StripAsciiWhitespace(text->substr(0, text->find('\n'))));
+  const bool printable = std::all_of(token.begin(), token.end(), [](char c) { return c > ' ' && c <= '~'; });
+  if (token.empty() || !printable) {
+    return absl::InvalidArgumentError(fmt::format(
+        "{}: the first line must be a token, of printable ASCII characters without spaces", path));
+  }
+  return token;
+}
 
 absl::StatusOr<Connection> Connect(const CommonOptions& options, KeepModels keep) {
   Connection connection;
@@ -131,6 +154,11 @@ absl::StatusOr<Connection> Connect(const CommonOptions& options, KeepModels keep
     return absl::InvalidArgumentError(
         fmt::format("--server {}; must be HOST:PORT, for example cam.example:50051", options.server));
   }
+  const bool encrypted = !options.ca_file.empty() || !options.cert_file.empty();
+  if (!options.token.empty() && !encrypted && !IsLoopback(options.server)) {
+    return absl::InvalidArgumentError(
+        fmt::format("--token-file: the token would be sent to {} without TLS; set --ca", options.server));
+  }
   const auto credentials = Credentials(options);
   if (!credentials.ok()) return credentials.status();
   grpc::ChannelArguments arguments;
@@ -147,6 +175,7 @@ CallScope::CallScope(const CommonOptions& options, InterruptWatch& watch) : watc
     context_.set_deadline(std::chrono::system_clock::now() +
                           std::chrono::milliseconds(static_cast<std::int64_t>(1000.0 * *options.timeout)));
   }
+  if (!options.token.empty()) context_.AddMetadata("authorization", "Bearer " + options.token);
   watch_.Attach(&context_);
 }
 

@@ -19,6 +19,7 @@ namespace patchmill::cli {
 struct CommonOptions {
   std::string server;  // HOST:PORT; empty: inside this process
   std::string ca_file, cert_file, key_file;
+  std::string token;              // sent as a bearer token; empty: none
   int threads = 0;                // 0: all
   std::optional<double> timeout;  // s
   bool quiet = false;
@@ -31,10 +32,14 @@ struct Connection {
 };
 // Whether the server inside this process keeps models that are uploaded. They take memory.
 enum class KeepModels { kNo, kYes };
+// INVALID_ARGUMENT for wrong options; also where a token would be sent beyond this machine without TLS.
 absl::StatusOr<Connection> Connect(const CommonOptions& options, KeepModels keep = KeepModels::kNo);
 
-// The context of a call. It has the deadline, and an interrupt cancels it while this object lives. It has to
-// end before results are written.
+// The token in a file: its first line. INVALID_ARGUMENT with the reason where there is none.
+absl::StatusOr<std::string> ReadTokenFile(const std::string& path);
+
+// The context of a call. It has the token and the deadline, and an interrupt cancels it while this object
+// lives. It has to end before results are written.
 class CallScope {
  public:
   CallScope(const CommonOptions& options, InterruptWatch& watch);

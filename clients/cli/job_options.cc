@@ -124,6 +124,15 @@ void AddCommonOptions(CLI::App& app, CommonOptions& options) {
                  "TLS: certificate of the authority that the server's certificate is checked with (PEM)");
   app.add_option("--cert", options.cert_file, "TLS: certificate of this client (PEM)");
   app.add_option("--key", options.key_file, "TLS: key of that certificate (PEM)");
+  app.add_option_function<std::string>(
+         "--token-file",
+         [&options](const std::string& path) {
+           const absl::StatusOr<std::string> token = ReadTokenFile(path);
+           if (!token.ok()) throw CLI::ValidationError("--token-file", std::string(token.status().message()));
+           options.token = *token;
+         },
+         "file with the bearer token that the server knows this caller by; also PATCHMILL_TOKEN_FILE")
+      ->envname("PATCHMILL_TOKEN_FILE");
   app.add_option("--threads", options.threads, "number of threads; 0: all; the result does not depend on it")
       ->check(CLI::Range(0, 64))
       ->capture_default_str();

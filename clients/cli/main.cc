@@ -2,7 +2,10 @@
 #include <algorithm>
 #include <cstdio>
 #include <map>
+#include <memory>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -76,6 +79,19 @@ int UsageError(const CLI::App& app, const CLI::ParseError& error, const Argument
   return 2;
 }
 
+// `patchmill serve`: its options come from other places, too, and are those of patchmilld.
+int RunServe(CLI::App& serve, const ServerOptions& server, std::vector<std::string> words) {
+  constexpr char kProgram[] = "patchmill serve";
+  const std::optional<ServeWords> all = ServeArguments(serve, kProgram, std::move(words));
+  if (!all) return 2;
+  try {
+    serve.parse(std::vector<std::string>(all->words.rbegin(), all->words.rend()));  // the last one first
+  } catch (const CLI::ParseError& error) {
+    return ServeUsageError(serve, kProgram, error, *all);
+  }
+  return Serve(server);
+}
+
 int Main(int argc, char** argv) {
   CLI::App app("patchmill: verified ball-end-mill programs from free-form patch models", "patchmill");
   FormatHelp(app);
@@ -102,7 +118,9 @@ int Main(int argc, char** argv) {
   for (const char* name : {"regions", "reach", "verify"}) AcceptOptionsOf(*of_name["mill"], *of_name[name]);
   CLI::App* serve = app.add_subcommand("serve", "run the service (also as patchmilld)");
   ServerOptions server;
-  AddServeFlags(*serve, server);
+  std::string serve_config;
+  AddServeFlags(*serve, server, serve_config);
+  serve->formatter(std::make_shared<CLI::Formatter>());  // its options have groups of their own
   CLI::App* completion =
       app.add_subcommand("completion", "print a script that completes commands and options");
   std::string shell = "bash";
@@ -112,6 +130,8 @@ int Main(int argc, char** argv) {
   for (CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
     command->group("Commands");
 
+  if (argc > 1 && std::string_view(argv[1]) == "serve")
+    return RunServe(*serve, server, {argv + 2, argv + argc});
   const absl::StatusOr<Arguments> arguments = WithDefaults(app, {argv + 1, argv + argc});
   if (!arguments.ok()) {
     fmt::print(stderr, "patchmill: {}\n", std::string(arguments.status().message()));

@@ -43,7 +43,7 @@ const std::vector<Group>& Groups() {
       {"Output",
        {"output", "report", "preview", "picture-view", "picture-shading", "picture-layers", "picture-size",
         "tolerance-map", "all-findings"}},
-      {"Service", {"server", "ca", "cert", "key", "threads", "timeout", "quiet", "config"}}};
+      {"Service", {"server", "ca", "cert", "key", "token-file", "threads", "timeout", "quiet", "config"}}};
   return *groups;
 }
 

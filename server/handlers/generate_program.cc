@@ -243,6 +243,9 @@ absl::Status HandleGenerateProgram(const Call& call, const v1::GenerateProgramRe
   return RunJobCall(call, work, [&](const RunContext& run) -> absl::Status {
     Made made;
     PM_RETURN_IF_ERROR(InJob(Make(prepared, wanted, ModelsOf(call), run, &made)));
+    for (const StageTime& stage : made.result.report.stages)
+      call.env->metrics.StageTook(stage.name, stage.seconds);
+    call.env->metrics.FoundCertificateDefects(made.result.report.certificate_defects);
     return SendResult(prepared, made, outputs, sink) ? absl::OkStatus() : gone();
   });
 }

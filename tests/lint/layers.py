@@ -49,7 +49,7 @@ ALLOWED["cam/plan"] = ALLOWED["cam/link"] | {"cam/link"} | set(rooms("cam", JUDG
 
 ALLOWED["proto/json"] = set()
 PROTO = {"proto/patchmill/v1", "patchmill/v1", "proto/json"}
-SERVER = ["server", "server/convert", "server/handlers"]
+SERVER = ["server", "server/convert", "server/handlers", "server/operate"]
 BELOW_SERVER = set(ALLOWED) | PROTO
 for name in SERVER:
     ALLOWED[name] = BELOW_SERVER | set(SERVER)
@@ -60,7 +60,8 @@ for name in ["import", "import/occt"]:
 # names what it uploads.
 ALLOWED["clients/render"] = set()
 ALLOWED["clients/cli"] = set(PROTO) | {"clients/render"}
-EXTRA_FILES = {"clients/cli": {"core/base/digest.h", "server/server.h", "server/options.h", "server/serve_flags.h"}}
+EXTRA_FILES = {"clients/cli": {"core/base/digest.h", "server/server.h", "server/options.h", "server/serve_flags.h",
+                               "server/operate/serve_words.h"}}
 
 INCLUDE = re.compile(r'^\s*#\s*include\s+"([^"]+)"', re.M)
 CGAL = re.compile(r'^\s*#\s*include\s+[<"]CGAL/', re.M)

@@ -5,7 +5,7 @@ import unittest
 
 import numpy as np
 import patchmill as pm
-from patchmill import _call, _message, analysis, messages, milling, modelling, uploading
+from patchmill import _call, _message, analysis, asking, messages, milling, modelling, uploading
 from patchmill.v1 import fairing_pb2, job_pb2, operation_pb2, setup_pb2
 from support import ROOT
 
@@ -15,6 +15,7 @@ FUNCTIONS = {
     "TabulateReach": analysis.reach, "TraceLines": analysis.lines, "EvaluateSurface": analysis.evaluate, "CheckModel": modelling.check,
     "ConvertModel": modelling.convert, "BuildModel": modelling.build, "EditModel": modelling.edit, "FairCurve": modelling.fair,
     "FairNet": modelling.fair_net, "UploadModel": uploading.upload, "ForgetModel": uploading.forget,
+    "GetCapabilities": asking.capabilities,
 }
 # Fields whose arguments have other names.
 ARGUMENTS = {

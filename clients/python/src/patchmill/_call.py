@@ -10,7 +10,7 @@ from typing import Any, Generic, Iterator, Protocol, TypeVar
 
 from ._message import from_message
 from .messages import Progress
-from .v1 import analysis_service_pb2, model_service_pb2, toolpath_service_pb2
+from .v1 import analysis_service_pb2, model_service_pb2, server_service_pb2, toolpath_service_pb2
 
 T = TypeVar("T")
 R = TypeVar("R", covariant=True)
@@ -81,7 +81,8 @@ def _proto_of(service_file: Any, service: str) -> Any:
     return proto
 
 
-SERVICES = {"ToolpathService": toolpath_service_pb2, "AnalysisService": analysis_service_pb2, "ModelService": model_service_pb2}
+SERVICES = {"ToolpathService": toolpath_service_pb2, "AnalysisService": analysis_service_pb2, "ModelService": model_service_pb2,
+            "ServerService": server_service_pb2}
 RPCS: dict[str, Method] = {
     name: _method(file, service, name)
     for service, file in SERVICES.items() for name in file.DESCRIPTOR.services_by_name[service].methods_by_name

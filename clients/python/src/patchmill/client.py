@@ -12,7 +12,7 @@ from typing import Any, Concatenate, ParamSpec, TypeVar
 import grpc
 import grpc.aio
 
-from . import analysis, milling, modelling, uploading
+from . import analysis, asking, milling, modelling, uploading
 from ._call import Call
 from ._connection import CHANNEL_OPTIONS, Tls, Token, check_address, check_token, credentials, metadata
 from ._run import run_once, run_once_async
@@ -109,7 +109,7 @@ class Client:
         only this user reaches.
     tls: the connection is encrypted. None: it is not.
     token: sent as `authorization: Bearer TOKEN` with every call, or a function that returns it. Never sent
-        unencrypted beyond this machine. patchmilld 0.1 reads none; a proxy in front of it may.
+        unencrypted beyond this machine.
     retry: how often a call is tried while the server is busy, drains or cannot be reached.
     program, threads: of the server that the client starts: patchmilld (None: the environment variable
         PATCHMILLD, or the one on the path), and threads of one job (0: all).
@@ -175,6 +175,7 @@ class Client:
     resolve = _method(milling.resolve)
     verify = _method(milling.verify)
     posts = _method(milling.posts)
+    capabilities = _method(asking.capabilities)
     check_post = _method(milling.check_post)
     regions = _method(analysis.regions)
     reach = _method(analysis.reach)
@@ -272,6 +273,7 @@ class AsyncClient:
     resolve = _async_method(milling.resolve)
     verify = _async_method(milling.verify)
     posts = _async_method(milling.posts)
+    capabilities = _async_method(asking.capabilities)
     check_post = _async_method(milling.check_post)
     regions = _async_method(analysis.regions)
     reach = _async_method(analysis.reach)

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 __all__ = [
     "CallError", "DeadlineError", "IncompleteAnswerError", "InternalServerError", "InvalidRequestError",
     "JobCancelledError", "LimitError", "ModelError", "ModelNotCachedError", "NoProgramError",
-    "NotAvailableError", "OptionError", "PatchmillError", "RegionsStaleError", "ServerBusyError",
+    "NotAuthenticatedError", "NotAvailableError", "OptionError", "PatchmillError", "QuotaError", "RegionsStaleError", "ServerBusyError",
     "ServerDrainingError", "ServerLostError", "ServerUnreachableError", "StartError", "TemporaryError",
     "UnreadableError", "WrongField",
 ]
@@ -95,6 +95,10 @@ class NotAvailableError(CallError):
     """The server does not have this yet, or was built without it."""
 
 
+class NotAuthenticatedError(CallError):
+    """The token is missing, unknown or has expired. `reason` says which."""
+
+
 class ModelNotCachedError(CallError):
     """The server does not hold the model that was named by its digest. Send it inline."""
 
@@ -125,6 +129,10 @@ class TemporaryError(CallError):
 
 class ServerBusyError(TemporaryError):
     """The server has as many jobs or bytes as it may."""
+
+
+class QuotaError(TemporaryError):
+    """This caller has taken what it may take: requests, places, seconds of jobs. `limit` names the quota."""
 
 
 class ServerDrainingError(TemporaryError):
