@@ -145,6 +145,7 @@ void AddMotion(const Operation& op, Canonical& out) {
   if (op.lead_feed) out.Add("lead feed").Add(*op.lead_feed);
   if (op.max_unreached != usual.max_unreached) out.Add("max unreached").Add(op.max_unreached);
   if (op.accept_depth != 0.0) out.Add("accept depth").Add(op.accept_depth);
+  if (op.corner_feed) out.Add("corner feed").Add(*op.corner_feed);
 }
 
 void AddLimits(const Job& job, Canonical& out) {

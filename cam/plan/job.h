@@ -178,6 +178,7 @@ struct Operation {
 };
 
 struct Job {
+  std::optional<double> corner_feed;            // mm/min, lowest feed of WithCornerFeeds; default: none
   Setup setup;
   Operation operation;
   Dialect dialect = LinuxCnc();

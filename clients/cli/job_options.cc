@@ -364,6 +364,7 @@ absl::StatusOr<v1::Operation> MakeOperation(const OperationOptions& options) {
   op.set_accept_depth_mm(options.accept_depth);
   if (options.max_unreached) {
     if (!(*options.max_unreached >= 0.0 && *options.max_unreached <= 100.0)) {
+  if (options.corner_feed) op.mutable_feeds()->set_corner_mm_per_min(*options.corner_feed);
       return absl::InvalidArgumentError(
           fmt::format("--max-unreached {:g}; must be in [0, 100] percent", *options.max_unreached));
     }

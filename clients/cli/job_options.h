@@ -41,7 +41,8 @@ struct OperationOptions {
   double zigzag_angle = 0.0, bend = 20.0, clearance = 5.0, detail = 0.5;
   bool one_way = false, spirals = false, auto_angle = false, no_border_passes = false;
   bool no_round_lines = false, high_rapids = false, low_rapids = false, keep_feed = false;
-  std::optional<double> approach_gap, lead_radius, lead_sweep, plunge_angle, link_feed, lead_feed;
+  std::optional<double> approach_gap, lead_radius, lead_sweep, plunge_angle, link_feed, lead_feed,
+      corner_feed;
   double accept_depth = 0.0;
   std::optional<double> max_unreached;  // percent
   std::optional<double> floor, feed, plunge_feed, spindle;

@@ -72,6 +72,7 @@ constexpr Entry kOptions[] = {
     {"feeds.keep_on_passes", "--keep-feed"},
     {"keep_feed_on_passes", "--keep-feed"},
     {"feeds.lead_mm_per_min", "--lead-feed"},
+    {"feeds.corner_mm_per_min", "--corner-feed"},
     {"stock.top_z_mm", "--stock-top"},
     {"stock.allowance_mm", "--allowance"},
     {"stock.block.margin_mm", "--stock"},
