@@ -79,6 +79,7 @@ constexpr Entry kOptions[] = {
     {"stock.cylinder.diameter_mm", "--stock"},
     {"stock.cylinder.center_xy_mm", "--stock"},
     {"stock.outline.outline_xy_mm", "--stock"},
+    {"stock.model", "--stock"},
     {"plunge_feed_mm_per_min", "--plunge-feed"},
     {"feed_mm_per_min", "--feed"},
     {"spindle_rpm", "--spindle"},

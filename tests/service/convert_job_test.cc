@@ -609,6 +609,7 @@ TEST(JobDigestTest, SeesEveryFieldAndNoDefault) {
   EXPECT_TRUE(differs([](Request& r) { OperationOf(r).mutable_feeds()->set_keep_on_passes(true); }));
   EXPECT_TRUE(differs([](Request& r) { OperationOf(r).mutable_feeds()->set_lead_mm_per_min(900); }));
   EXPECT_TRUE(differs([](Request& r) { OperationOf(r).mutable_feeds()->set_corner_mm_per_min(300); }));
+  EXPECT_TRUE(differs([](Request& r) { *StockOf(r).mutable_model() = r.job().source(); }));
   EXPECT_TRUE(differs([](Request& r) { OperationOf(r).set_accept_depth_mm(1); }));
   EXPECT_TRUE(differs([](Request& r) {
     ToolOf(r).set_stickout_mm(40);
