@@ -133,6 +133,8 @@ void AddStock(const Setup& setup, Canonical& out) {
     out.Add("cylinder").Add(cylinder->diameter);
     if (cylinder->center) out.Add(cylinder->center->x()).Add(cylinder->center->y());
   }
+  if (const auto* model = std::get_if<ModelStock>(&setup.stock_body))
+    out.Add("stock model").Add(model->digest);
 }
 
 void AddMachine(const Machine& machine, Canonical& out) {
@@ -153,6 +155,7 @@ void AddMotion(const Operation& op, Canonical& out) {
   if (op.keep_feed) out.Add("keep feed");
   if (op.link_feed) out.Add("link feed").Add(*op.link_feed);
   if (op.lead_feed) out.Add("lead feed").Add(*op.lead_feed);
+  if (op.corner_feed) out.Add("corner feed").Add(*op.corner_feed);
   if (op.max_unreached != usual.max_unreached) out.Add("max unreached").Add(op.max_unreached);
   if (op.accept_depth != 0.0) out.Add("accept depth").Add(op.accept_depth);
 }

@@ -48,8 +48,17 @@ double BoundaryRoom(const Containment& containment, const Vec2& center, double b
 }
 
 double ObstacleRoom(const Obstacle& obstacle, const Vec3& tip, double tool_radius) {
+  if (obstacle.stock != nullptr)
+    return obstacle.stock->CylinderRoom(Xy(tip), tip.z() + obstacle.lower, tool_radius) - obstacle.margin;
   const double beside = -obstacle.outline.SignedDistance(Xy(tip)) - tool_radius;
   return std::max(beside, tip.z() - obstacle.top_z) - obstacle.margin;
+}
+
+double LowestTipOver(const Obstacle& obstacle, const Vec2& q, double tool_radius) {
+  if (obstacle.stock != nullptr)
+    return obstacle.stock->TopNear(q, q, tool_radius + obstacle.margin) - obstacle.lower + obstacle.margin;
+  const bool beside = ObstacleRoom(obstacle, Lift(q, -kInfinity), tool_radius) >= 0.0;
+  return beside ? -kInfinity : obstacle.top_z + obstacle.margin;
 }
 
 double StripRoom(const BesideStrip& strip, const Vec3& tip) {

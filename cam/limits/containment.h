@@ -2,10 +2,12 @@
 // and verifier share these definitions. All positions are in the placed frame, mm.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "cam/limits/stock_solid.h"
 #include "core/base/typed_id.h"
 #include "core/math/outline.h"
 
@@ -35,6 +37,9 @@ struct Obstacle {
   // It limits a cylinder of the holder: it is as much wider and lower as that is wider than the tool below
   // and begins higher.
   bool of_holder = false;
+  // The stock in place of the outline, for a cylinder of the holder. It counts as lower by so much (mm).
+  std::shared_ptr<const StockSolid> stock = nullptr;
+  double lower = 0.0;
 };
 
 // An area beside the part. Over it the tool's axis keeps the tip at or above a height
@@ -77,6 +82,8 @@ double ContactRoomOutside(const Containment& containment, const Vec3& p);
 double BoundaryRoom(const Containment& containment, const Vec2& center, double ball_radius);
 // `tool_radius` is the larger radius of ball and shank.
 double ObstacleRoom(const Obstacle& obstacle, const Vec3& tip, double tool_radius);
+// The lowest tip over q that an obstacle allows; -infinity beside it.
+double LowestTipOver(const Obstacle& obstacle, const Vec2& q, double tool_radius);
 double TopRoom(const Containment& containment, double tip_z);
 double StripRoom(const BesideStrip& strip, const Vec3& tip);
 // The smallest StripRoom of all strips.

@@ -114,9 +114,20 @@ absl::StatusOr<StockSolid> StockSolid::Roughed(Outline outline, double top_z, co
     solid.distance_[i] = static_cast<float>(d);
   }
   solid.grid_ = grid;
+  solid.accuracy_ = 2.0 * grid.cell;
   for (const Ring& ring : solid.outline_.rings()) {
     for (const Vec2& p : ring) solid.goes_beyond_ = solid.goes_beyond_ || solid.RoomInGrid(p) < 0.0;
   }
+  return solid;
+}
+
+absl::StatusOr<StockSolid> StockSolid::OfModel(const Surface& model, double top_z, const Surface* roughed,
+                                               const RunContext& run) {
+  PM_ASSIGN_OR_RETURN(StockColumns columns, StockColumns::Make(model, top_z, roughed, run));
+  StockSolid solid;
+  solid.top_z_ = top_z;
+  if (roughed != nullptr) solid.accuracy_ = columns.accuracy();
+  solid.columns_ = std::make_shared<const StockColumns>(std::move(columns));
   return solid;
 }
 
@@ -138,6 +149,7 @@ double StockSolid::RoomInGrid(const Vec2& q) const {
 }
 
 double StockSolid::PlanDistance(const Vec2& q) const {
+  if (columns_ != nullptr) return columns_->Distance(Lift(q, -kInfinity));
   if (distance_.empty()) return -outline_.SignedDistance(q);
   const Vec2 inside = q.cwiseMax(grid_.low).cwiseMin(grid_.high());
   const double beside = (q - inside).norm();
@@ -152,12 +164,20 @@ double StockSolid::PlanDistance(const Vec2& q) const {
 }
 
 double StockSolid::Distance(const Vec3& c) const {
+  if (columns_ != nullptr) return columns_->Distance(c);
   const double beside = PlanDistance(Xy(c)), above = c.z() - top_z_;
   if (beside > 0.0 && above > 0.0) return std::hypot(beside, above);
   return std::max(beside, above);
 }
 
-double StockSolid::Step() const { return std::max(kLeastStep, 0.25 * accuracy()); }
+double StockSolid::CylinderRoom(const Vec2& q, double z, double radius) const {
+  if (columns_ != nullptr) return columns_->CylinderRoom(q, z, radius);
+  return std::max(PlanDistance(q) - radius, z - top_z_);
+}
+
+double StockSolid::Step() const {
+  return std::max(kLeastStep, 0.25 * (columns_ != nullptr ? columns_->accuracy() : accuracy_));
+}
 
 bool StockSolid::SegmentComesNearer(const Vec3& a, const Vec3& b, double distance) const {
   const Vec3 along = std::isinf(a.z()) ? Lift(Xy(b) - Xy(a), 0.0) : Vec3(b - a);
@@ -171,7 +191,22 @@ bool StockSolid::SegmentComesNearer(const Vec3& a, const Vec3& b, double distanc
   }
 }
 
+double StockSolid::TopNear(const Vec2& a, const Vec2& b, double distance) const {
+  if (columns_ != nullptr) return columns_->TopNear(a, b, distance);
+  return RectangleComesNearer(a, b, distance) ? top_z_ : -kInfinity;
+}
+
+bool StockSolid::RectangleComesNearer(const Vec2& a, const Vec2& b, double z, double distance) const {
+  if (columns_ != nullptr) return columns_->RectangleComesNearer(a, b, z, distance);
+  // A place at this height is as near as `beside` in plan.
+  const double above = z - top_z_;
+  if (above >= distance) return false;
+  const double beside = above <= 0.0 ? distance : std::sqrt(distance * distance - above * above);
+  return RectangleComesNearer(a, b, beside);
+}
+
 bool StockSolid::RectangleComesNearer(const Vec2& a, const Vec2& b, double distance) const {
+  if (columns_ != nullptr) return columns_->RectangleComesNearer(a, b, -kInfinity, distance);
   const Vec2 middle = 0.5 * (a + b);
   const double half = 0.5 * (b - a).norm(), room = PlanDistance(middle) - distance;
   if (room < 0.0) return true;

@@ -66,6 +66,7 @@ struct LinkStats {
   int retract_count = 0;             // rapids that follow on a feed move
   double steepest_descent = 0.0;     // rad, of any feed move
   double saved_by_low_rapids = 0.0;  // mm of rapids that low rapids would save
+  double corner_length = 0.0;        // mm of passes that WithCornerFeeds made slower
 };
 
 struct LinkResult {

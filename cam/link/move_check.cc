@@ -36,8 +36,9 @@ double MoveCheck::StockRoom() const {
   return std::max(params_.radius, params_.tool_radius) + params_.approach_gap + params_.stock->accuracy();
 }
 
-double MoveCheck::AboveStockSolid() const {
-  return params_.stock->top_z() + params_.approach_gap + params_.radius;
+double MoveCheck::AboveStockSolid(const Vec2& a, const Vec2& b) const {
+  if (params_.stock == nullptr) return -kInfinity;
+  return params_.stock->TopNear(a, b, StockRoom()) + params_.approach_gap + params_.radius;
 }
 
 bool MoveCheck::ClearOfStockSolid(const Vec3& a, const Vec3& b, double gap) const {
@@ -110,8 +111,7 @@ bool MoveCheck::LeavesUnwanted(const Vec3& c) const {
 double MoveCheck::ClearOfStock(const Vec3& place) const {
   const auto top = stock_locator_.Height(Xy(place));
   double clear = top ? std::max(top->z, place.z()) : place.z();
-  if (params_.stock != nullptr && params_.stock->PlanDistance(Xy(place)) < StockRoom())
-    clear = std::max(clear, AboveStockSolid());
+  clear = std::max(clear, AboveStockSolid(Xy(place), Xy(place)));
   return std::min(clear, clearance_center_z());
 }
 
@@ -121,8 +121,10 @@ double MoveCheck::ClearOfStockBelow(const UpperCylinder& cylinder, const Vec2& a
   double lower_end =
       std::min(stock_locator_.MaxHeight(a, b, wider, kFineRapid), params_.stock_top_z + params_.approach_gap);
   const double room = cylinder.radius + params_.approach_gap;
-  if (params_.stock != nullptr && params_.stock->RectangleComesNearer(a, b, room + params_.stock->accuracy()))
-    lower_end = std::max(lower_end, params_.stock->top_z() + params_.approach_gap);
+  if (params_.stock != nullptr) {
+    const double top = params_.stock->TopNear(a, b, room + params_.stock->accuracy());
+    lower_end = std::max(lower_end, top + params_.approach_gap);
+  }
   return lower_end - cylinder.rise;
 }
 
@@ -133,8 +135,7 @@ double MoveCheck::LowRapidHeight(const Vec3& a, const Vec3& b) const {
   const double above_all = params_.stock_top_z + params_.approach_gap + params_.radius;
   const double highest = stock_locator_.MaxHeight(Xy(a), Xy(b), wider, kFineRapid);
   double clear = std::min(highest + params_.shank_lower, above_all);
-  if (params_.stock != nullptr && params_.stock->RectangleComesNearer(Xy(a), Xy(b), StockRoom()))
-    clear = std::max(clear, AboveStockSolid());
+  clear = std::max(clear, AboveStockSolid(Xy(a), Xy(b)));
   for (const UpperCylinder& cylinder : params_.holder)
     clear = std::max(clear, ClearOfStockBelow(cylinder, Xy(a), Xy(b)));
   if (params_.operation_limits != nullptr)

@@ -42,8 +42,9 @@ class MoveCheck {
   // The lowest centre (mm) from which on this cylinder of the holder is clear of the stock over the
   // rectangle.
   double ClearOfStockBelow(const UpperCylinder& cylinder, const Vec2& a, const Vec2& b) const;
-  double StockRoom() const;        // mm, in plan: from there on the tool is clear of params().stock
-  double AboveStockSolid() const;  // mm, centre height
+  double StockRoom() const;  // mm, in plan: from there on the tool is clear of params().stock
+  // Centre height (mm) from which on the tool is clear of params().stock over a rectangle in plan.
+  double AboveStockSolid(const Vec2& a, const Vec2& b) const;
   // True if the ball is clear of the stock, or if the surface near it is to be finished and the tip is not
   // above the highest one allowed.
   bool LeavesUnwanted(const Vec3& c) const;

@@ -1,6 +1,7 @@
 // One job as values: the request and the result. server/convert makes them from the messages of the wire.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <variant>
@@ -45,19 +46,26 @@ struct CylinderStock {
   std::optional<Vec2> center;  // PROGRAM frame; default the middle of the box of the placed model
 };
 
+struct ModelStock {
+  std::shared_ptr<const Surface> surface;  // placed as the model is; never null in a job that runs
+  std::string digest;                      // SHA-256 of its model, 32 bytes
+};
+
 struct Setup {
   Placement placement;
   // Exactly what [machining M3] offers: a point of the placed model, or one of its box's named points.
   enum class Zero { kPoint, kTopCenter, kBottomCorner };
   Zero zero = Zero::kPoint;
-  Vec3 zero_point = Vec3::Zero();     // for kPoint, placed frame; default the model's own origin
-  bool zero_stated = true;            // false: the client has not said where the zero is
-  std::optional<double> stock_top_z;  // PROGRAM frame, default model top + allowance
+  Vec3 zero_point = Vec3::Zero();  // for kPoint, placed frame; default the model's own origin
+  bool zero_stated = true;         // false: the client has not said where the zero is
+  // PROGRAM frame, default model top + allowance, or the top of a stock with a model of its own if that is
+  // higher.
+  std::optional<double> stock_top_z;
   double allowance = 0.5;
   // True if the client has stated the allowance. A body of the stock has then been cut down to it over the
   // area that the surface covers as seen from above; else the body is whole.
   bool allowance_stated = false;
-  std::variant<NoStockBody, BlockStock, OutlineStock, CylinderStock> stock_body = NoStockBody{};
+  std::variant<NoStockBody, BlockStock, OutlineStock, CylinderStock, ModelStock> stock_body = NoStockBody{};
   std::vector<ObstacleOutline> obstacles;
   // ChooseUp (cam/plan/choose_up.h) turns the placement once the model is known: the axis that shows most
   // points up, or the outer normal of a plane face. At most one is set.
@@ -170,6 +178,7 @@ struct Operation {
   double plunge_angle = kDefaultPlungeAngle;
   bool keep_feed = false;                       // of passes, on steep descents too; the stock must be stated
   std::optional<double> link_feed, lead_feed;   // mm/min; default that of the tool
+  std::optional<double> corner_feed;            // mm/min, lowest feed of WithCornerFeeds; default: none
   double accept_depth = 0.0;                    // mm; deeper cuts than it and the allowance end the job
   double max_unreached = kDefaultMaxUnreached;  // share of what looks up, [0, 1]: UnreachedShare
   Selection selection;

@@ -16,6 +16,7 @@ namespace {
 const char* NameOf(const decltype(Setup::stock_body)& body) {
   if (std::holds_alternative<BlockStock>(body)) return "block";
   if (std::holds_alternative<CylinderStock>(body)) return "cylinder";
+  if (std::holds_alternative<ModelStock>(body)) return "stock model";
   return "prism";
 }
 
@@ -56,6 +57,13 @@ double SumOf(const std::vector<MissedArea>& missed) {
 // The tip of a ball whose centre is there, placed frame.
 Vec3 TipAt(const Vec3& center, const Resolved& resolved) { return center - Vec3(0.0, 0.0, resolved.radius); }
 
+// As seen from above, and at the top.
+bool Encloses(const Box3& stock, const Box3& part) {
+  constexpr double kSlack = 1e-3;  // mm
+  return (stock.min.head<2>().array() <= part.min.head<2>().array() + kSlack).all() &&
+         (stock.max.array() >= part.max.array() - kSlack).all();
+}
+
 }  // namespace
 
 Diagnostics Assumptions(const Job& job, const Resolved& r) {
@@ -70,6 +78,15 @@ Diagnostics Assumptions(const Job& job, const Resolved& r) {
     stock = fmt::format("a whole {}, from which nothing has been cut", NameOf(job.setup.stock_body));
   }
   stock += fmt::format(", nothing above Z{:.4f}", r.stock_top_z - zero_z);
+  if (r.stock_box && !Encloses(*r.stock_box, r.box)) {
+    const Box3& box = *r.stock_box;
+    stock += fmt::format(
+        ". The stock model does not enclose the part: it reaches from X{:.4g} Y{:.4g} Z{:.4g} to X{:.4g} "
+        "Y{:.4g} "
+        "Z{:.4g}",
+        box.min.x() - r.program_zero.x(), box.min.y() - r.program_zero.y(), box.min.z() - zero_z,
+        box.max.x() - r.program_zero.x(), box.max.y() - r.program_zero.y(), box.max.z() - zero_z);
+  }
   const Tool& tool = job.operation.tool;
   if (job.default_tool_number)
     list.push_back(

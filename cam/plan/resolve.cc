@@ -78,8 +78,28 @@ void AddObstacle(const Obstacle& obstacle, const Tool& tool, std::vector<Obstacl
   }
 }
 
-absl::StatusOr<Containment> ResolveContainment(const Surface& surface, const Job& job, const Vec3& zero,
+// The stock as it limits the holder: one obstacle for each of its cylinders.
+void AddStock(const std::shared_ptr<const StockSolid>& stock, const Operation& op,
+              std::vector<Obstacle>& obstacles) {
+  if (stock == nullptr) return;
+  for (const UpperCylinder& cylinder : UpperCylindersOf(op.tool)) {
+    if (cylinder.part != UpperPart::kHolder) continue;
+    Obstacle body;
+    body.name = "the stock";
+    body.stock = stock;
+    body.of_holder = true;
+    body.top_z = -kInfinity;
+    // Moves may violate a limit by half the tolerance, and the verifier allows nothing.
+    const double wider = cylinder.radius - WidestRadius(op.tool);
+    body.margin = wider + stock->accuracy() + op.tolerance;
+    body.lower = body.margin + cylinder.rise + BallRadius(op.tool) - op.tolerance;
+    obstacles.push_back(std::move(body));
+  }
+}
+
+absl::StatusOr<Containment> ResolveContainment(const Surface& surface, const Job& job, const Resolved& r,
                                                const RunContext& run) {
+  const Vec3& zero = r.program_zero;
   const Selection& selection = job.operation.selection;
   Containment c;
   PM_ASSIGN_OR_RETURN(c.selected,
@@ -98,6 +118,7 @@ absl::StatusOr<Containment> ResolveContainment(const Surface& surface, const Job
     AddObstacle({name, Shifted({o.outline}, zero), o.top_z + zero.z(), o.margin}, job.operation.tool,
                 c.obstacles);
   }
+  AddStock(r.stock, job.operation, c.obstacles);
   PM_ASSIGN_OR_RETURN(c.beside, FindBesideStrips(surface,
                                                  {.radius = BallRadius(job.operation.tool),
                                                   .tolerance = job.operation.tolerance,
@@ -135,6 +156,12 @@ Ring StockOutline(const Setup& setup, const Box3& box, const Vec3& zero) {
 absl::StatusOr<std::shared_ptr<const StockSolid>> ResolveStock(const Surface& surface, const Setup& setup,
                                                                const Resolved& r, const RunContext& run) {
   if (std::holds_alternative<NoStockBody>(setup.stock_body)) return nullptr;
+  if (const auto* model = std::get_if<ModelStock>(&setup.stock_body)) {
+    PM_ASSIGN_OR_RETURN(StockSolid solid,
+                        StockSolid::OfModel(*model->surface, r.stock_top_z,
+                                            setup.allowance_stated ? &surface : nullptr, run));
+    return std::make_shared<const StockSolid>(std::move(solid));
+  }
   const Ring ring = StockOutline(setup, r.box, r.program_zero);
   if (const std::string fault = OutlineFault({ring}); !fault.empty())
     return FieldError("setup.stock", "is no outline: " + fault);
@@ -176,7 +203,13 @@ absl::StatusOr<Resolved> Resolve(const Surface& surface, const Job& job, const R
   if (!job.dialect.follows_exactly && job.dialect.path_tolerance.empty())
     r.budget.controller = job.control_deviation.value_or(0.0);
   const double top = r.box.max.z();
-  r.stock_top_z = job.setup.stock_top_z ? *job.setup.stock_top_z + zero_z : top + job.setup.allowance;
+  r.stock_top_z = top + job.setup.allowance;
+  if (const auto* model = std::get_if<ModelStock>(&job.setup.stock_body)) {
+    if (model->surface == nullptr) return FieldError("setup.stock.model", "is missing");
+    r.stock_box = TightBox(*model->surface);
+    r.stock_top_z = std::max(r.stock_top_z, r.stock_box->max.z());
+  }
+  if (job.setup.stock_top_z) r.stock_top_z = *job.setup.stock_top_z + zero_z;
   if (r.stock_top_z < top - 1e-6) {
     return FieldError("setup.stock.top_z_mm",
                       fmt::format("= {:.6g}; must be at least the model's top, {:.6g}",
@@ -186,7 +219,7 @@ absl::StatusOr<Resolved> Resolve(const Surface& surface, const Job& job, const R
   r.depth_limit = std::max(job.setup.allowance, op.accept_depth);
   r.floor_z = op.floor_z ? *op.floor_z + zero_z : r.box.min.z();
   r.plan_floor_z = FloorOnGrid(r.floor_z, zero_z, TickOf(job.dialect, job.unit));
-  PM_ASSIGN_OR_RETURN(r.containment, ResolveContainment(surface, job, r.program_zero, run));
+  PM_ASSIGN_OR_RETURN(r.containment, ResolveContainment(surface, job, r, run));
   double highest = std::max(top, r.stock_top_z);
   for (const Obstacle& o : r.containment.obstacles) highest = std::max(highest, o.top_z + o.margin);
   r.clearance_z = op.clearance_z ? *op.clearance_z + zero_z

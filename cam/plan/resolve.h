@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include <absl/status/statusor.h>
 
@@ -26,7 +27,8 @@ struct Resolved {
   Vec3 program_zero = Vec3::Zero();
   std::string zero_name;
   double stock_top_z = 0.0;
-  double floor_z = 0.0;  // tip
+  std::optional<Box3> stock_box;  // of a stock with a model of its own
+  double floor_z = 0.0;           // tip
   // Tip: what is planned with. It is the floor, or where coordinates are coarser than the floor's slack, the
   // lowest coordinate that is not below it.
   double plan_floor_z = 0.0;

@@ -33,7 +33,9 @@
 #include "cam/post/program_lines.h"
 #include "cam/post/program_reader.h"
 #include "cam/region/split_regions.h"
+#include "cam/toolpath/corner_feeds.h"
 #include "cam/toolpath/fit_arcs.h"
+#include "cam/toolpath/motion_time.h"
 #include "cam/toolpath/straighten.h"
 #include "cam/verify/stock_moves.h"
 #include "core/base/error_details.h"
@@ -158,6 +160,18 @@ std::vector<std::string> Header(const Job& job, const Resolved& r, const Diagnos
   return lines;
 }
 
+// Corners of passes at their own feed, and the time that this takes.
+void SlowCorners(const Operation& op, LinkResult& linked) {
+  const double least = std::min(*op.corner_feed, op.tool.feed);
+  CornerFeedResult slowed = WithCornerFeeds(std::move(linked.toolpath), {op.tool.feed, least});
+  linked.toolpath = std::move(slowed.toolpath);
+  linked.stats.corner_length = slowed.slowed_length;
+  const std::vector<Move>& moves = linked.toolpath.moves;
+  linked.stats.time = 0.0;
+  for (std::size_t i = 1; i < moves.size(); ++i)
+    linked.stats.time += EstimatedTime(moves[i], (moves[i].to - moves[i - 1].to).norm());
+}
+
 // The passes in their order, linked where the parts are cut.
 absl::StatusOr<LinkResult> Link(const JobContext& context, const Locator& locator, const RegionMap& map,
                                 const JobParts& parts, std::vector<CutterPath> paths) {
@@ -170,6 +184,7 @@ absl::StatusOr<LinkResult> Link(const JobContext& context, const Locator& locato
   const LinkParams params = MakeLinkParams(context.job, context.resolved, within ? &*within : parts.limits);
   PM_ASSIGN_OR_RETURN(LinkResult linked, LinkPaths(locator, map, std::move(paths), params, context.run));
   linked.toolpath = Straightened(std::move(linked.toolpath));
+  if (context.job.operation.corner_feed) SlowCorners(context.job.operation, linked);
   return linked;
 }
 

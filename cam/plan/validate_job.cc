@@ -160,6 +160,11 @@ absl::Status ValidateJob(const Job& job) {
                     "{:.6g}: descents may then cut deep",
                     op.accept_depth, job.setup.allowance));
   }
+  if (op.corner_feed) {
+    PM_RETURN_IF_ERROR(check("feeds.corner_mm_per_min", *op.corner_feed,
+                             *op.corner_feed >= 0.1 && *op.corner_feed <= tool.feed,
+                             fmt::format("in [0.1, the feed of the tool = {:.6g}]", tool.feed)));
+  }
   if (!tool.holder.empty() && !tool.stickout)
     return FieldError("tool.stickout_mm", "is missing; required with a holder: it says where that begins");
   for (const HolderSegment& segment : tool.holder) {

@@ -152,6 +152,7 @@ Diagnostics BrokenLimits(const Surface& surface, const ProgramMotion& motion, co
   const std::vector<PathSegment> all = CollectMoves(motion, MotionSet::kSwept, offset);
   const std::vector<PathSegment> dog_legs = CollectMoves(motion, MotionSet::kDogLegs, offset);
   for (const Obstacle& o : c.obstacles) {
+    if (o.stock != nullptr) continue;  // HOLDER_IN_STOCK
     const Room room = [&](const Vec3& center) {
       return ObstacleRoom(o, center - Vec3(0.0, 0.0, limits.ball), limits.tool);
     };

@@ -304,8 +304,7 @@ double RaiseNeeded(const Surface& surface, const Vec3& p, const Facing& facing, 
     if (known.part == UpperPart::kHolder && limits.containment != nullptr) {
       const double tip = c.z() - limits.ball;
       for (const Obstacle& o : limits.containment->obstacles) {
-        const bool over = o.of_holder && ObstacleRoom(o, Lift(q, -kInfinity), limits.tool) < 0.0;
-        if (over) here = std::max(here, o.top_z + o.margin - tip);
+        if (o.of_holder) here = std::max(here, LowestTipOver(o, q, limits.tool) - tip);
       }
     }
     needed = std::min(needed, here);

@@ -10,6 +10,19 @@ namespace {
 constexpr double kStep = 0.05;  // radii: how far apart places of a cut that is too deep are measured
 constexpr std::size_t kMovesBetweenPolls = 1024;
 
+// True if stock above the lower end of a shank stands within `room` (mm, in plan) of its axis, where the lower
+// end moves from a up to b. Halves of the move are tried until one of them is level or short.
+bool ComesBesideStock(const StockSolid& stock, const Vec3& a, const Vec3& b, double room) {
+  constexpr double kShort = 0.05;  // mm
+  if (!stock.SegmentComesNearer(Lift(Xy(a), -kInfinity), Lift(Xy(b), -kInfinity), room)) return false;
+  const double top = stock.TopNear(Xy(a), Xy(b), room);
+  if (top <= a.z()) return false;
+  if (top >= stock.top_z() && stock.has_one_top()) return true;
+  if ((b - a).norm() < kShort) return true;
+  const Vec3 middle = 0.5 * (a + b);
+  return ComesBesideStock(stock, a, middle, room) || ComesBesideStock(stock, middle, b, room);
+}
+
 }  // namespace
 
 DeepCuts FindDeepCuts(const StockSolid& stock, const std::vector<PathSegment>& feeds, double radius,
@@ -48,11 +61,7 @@ int FirstInStock(const StockSolid& stock, const std::vector<PathSegment>& moves,
       if (stock.SegmentComesNearer(a, b, room)) return move;
       continue;
     }
-    // At the height of the lower end the ball is as near as `beside` in plan.
-    const double above = std::min(a.z(), b.z()) - stock.top_z();
-    if (above >= room) continue;
-    const double beside = above <= 0.0 ? room : std::sqrt(room * room - above * above);
-    if (stock.RectangleComesNearer(Xy(a), Xy(b), beside)) return move;
+    if (stock.RectangleComesNearer(Xy(a), Xy(b), std::min(a.z(), b.z()), room)) return move;
   }
   return -1;
 }
@@ -67,7 +76,7 @@ int FirstShankInStock(const StockSolid& stock, const std::vector<PathSegment>& m
     if (a.z() >= stock.top_z()) continue;
     // The part of the move below the top, where the distance is that in plan.
     if (b.z() > stock.top_z()) b = a + (stock.top_z() - a.z()) / (b.z() - a.z()) * (b - a);
-    if (stock.SegmentComesNearer(Lift(Xy(a), -kInfinity), Lift(Xy(b), -kInfinity), room)) return move;
+    if (ComesBesideStock(stock, a, b, room)) return move;
   }
   return -1;
 }

@@ -205,8 +205,9 @@ void AddStockOptions(CLI::App& app, SetupOptions& options) {
             "stock allowance along the normal, mm; default 0.5, or --leave if that is more");
   app.add_option("--stock", options.stock,
                  "the stock as it lies on the machine, up to --stock-top: block[,MARGIN] around the model |\n"
-                 "cylinder,D[,X,Y] | \"outline: X,Y X,Y ...\" | outline:@FILE. It is whole, or with "
-                 "--allowance it has been\nroughed to that over the part and stands beside it");
+                 "cylinder,D[,X,Y] | \"outline: X,Y X,Y ...\" | outline:@FILE | model:FILE, placed as the "
+                 "model is. It is\nwhole, or with --allowance it has been roughed to that over the part and "
+                 "stands beside it");
   app.add_option(
       "--machine", options.machine,
       "the machine as a .json file: travel, speeds and accelerations of its axes (docs/motion.md). Moves "
@@ -226,7 +227,7 @@ absl::Status ReadMachine(const std::string& path, v1::Machine& machine) {
 
 }  // namespace
 
-absl::StatusOr<v1::Setup> MakeSetup(const SetupOptions& options) {
+absl::StatusOr<v1::Setup> MakeSetup(const SetupOptions& options, const std::string& length_unit) {
   v1::Setup setup;
   if (const std::optional<v1::UpAxis> up = MakeUp(options.up)) {
     setup.set_up(*up);
@@ -272,8 +273,10 @@ absl::StatusOr<v1::Setup> MakeSetup(const SetupOptions& options) {
       return read;
   }
   if (!options.stock.empty()) {
-    if (const absl::Status read = ReadStockBody(options.stock, *setup.mutable_stock()); !read.ok())
-      return read;
+    ReadingOptions reading;
+    reading.length_unit = length_unit;
+    const absl::Status read = ReadStockBody(options.stock, reading, *setup.mutable_stock());
+    if (!read.ok()) return read;
   }
   return setup;
 }
@@ -370,6 +373,7 @@ absl::StatusOr<v1::Operation> MakeOperation(const OperationOptions& options) {
   if (options.keep_feed) op.mutable_feeds()->set_keep_on_passes(true);
   if (options.link_feed) op.mutable_feeds()->set_link_mm_per_min(*options.link_feed);
   if (options.lead_feed) op.mutable_feeds()->set_lead_mm_per_min(*options.lead_feed);
+  if (options.corner_feed) op.mutable_feeds()->set_corner_mm_per_min(*options.corner_feed);
   op.set_accept_depth_mm(options.accept_depth);
   if (options.max_unreached) {
     if (!(*options.max_unreached >= 0.0 && *options.max_unreached <= 100.0)) {
@@ -399,9 +403,14 @@ void AddReadingOptions(CLI::App& app, ReadingOptions& options) {
 }
 
 absl::StatusOr<v1::ModelSource> ReadModel(const std::string& path, const ReadingOptions& options) {
+  absl::StatusOr<v1::ModelSource> source = ReadModelFile(path, options);
+  if (source.ok()) NameModel(path);
+  return source;
+}
+
+absl::StatusOr<v1::ModelSource> ReadModelFile(const std::string& path, const ReadingOptions& options) {
   absl::StatusOr<std::string> bytes = ReadWholeFile(path, kMaxModelFileBytes);
   if (!bytes.ok()) return bytes.status();
-  NameModel(path);
   v1::ModelSource source;
   v1::ModelFile& file = *source.mutable_file();
   std::string ending = std::filesystem::path(path).extension().string();

@@ -41,7 +41,8 @@ struct OperationOptions {
   double zigzag_angle = 0.0, bend = 20.0, clearance = 5.0, detail = 0.5;
   bool one_way = false, spirals = false, auto_angle = false, no_border_passes = false;
   bool no_round_lines = false, high_rapids = false, low_rapids = false, keep_feed = false;
-  std::optional<double> approach_gap, lead_radius, lead_sweep, plunge_angle, link_feed, lead_feed;
+  std::optional<double> approach_gap, lead_radius, lead_sweep, plunge_angle, link_feed, lead_feed,
+      corner_feed;
   double accept_depth = 0.0;
   std::optional<double> max_unreached;  // percent
   std::optional<double> floor, feed, plunge_feed, spindle;
@@ -64,7 +65,6 @@ void AddStockOptions(CLI::App& app, SetupOptions& options);
 inline constexpr char kModelHelp[] =
     "model file: .step, .stp, .iges, .igs, .json, .pb, .bpt, .bv, .bez, .patches";
 
-absl::StatusOr<v1::Setup> MakeSetup(const SetupOptions& options);
 absl::Status SetShank(const ShankOptions& options, v1::Tool& tool);
 absl::StatusOr<v1::Operation> MakeOperation(const OperationOptions& options);
 v1::Strategy MakeStrategy(const std::string& name);
@@ -80,8 +80,13 @@ struct ReadingOptions {
 };
 void AddReadingOptions(CLI::App& app, ReadingOptions& options);
 
+// `length_unit` is that of a stock's model that states none, as in ReadingOptions.
+absl::StatusOr<v1::Setup> MakeSetup(const SetupOptions& options, const std::string& length_unit = "");
+
 // The bytes of a model file, its format and how it is read. The ending of the path gives the text formats.
 // The server distinguishes JSON from protobuf by content.
+absl::StatusOr<v1::ModelSource> ReadModelFile(const std::string& path, const ReadingOptions& options);
+// The same of the part: faults of its patches name this file.
 absl::StatusOr<v1::ModelSource> ReadModel(const std::string& path, const ReadingOptions& options = {});
 
 }  // namespace patchmill::cli

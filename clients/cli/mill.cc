@@ -62,7 +62,7 @@ absl::StatusOr<v1::GenerateProgramRequest> MakeRequest(const MillOptions& option
   v1::GenerateProgramRequest request;
   absl::StatusOr<v1::ModelSource> source = ReadModel(options.model, options.reading);
   if (!source.ok()) return source.status();
-  absl::StatusOr<v1::Setup> setup = MakeSetup(options.setup);
+  absl::StatusOr<v1::Setup> setup = MakeSetup(options.setup, options.reading.length_unit);
   if (!setup.ok()) return setup.status();
   v1::Job& job = *request.mutable_job();
   *job.mutable_source() = *std::move(source);
@@ -293,6 +293,9 @@ void PrintSummary(const MillOptions& options, const v1::Report& report) {
   fmt::print(stderr, "            {:.1f} m of feed, {}; {:.1f} m of rapids{}\n",
              report.cut_length_mm() / 1000.0, OverLeast(report), report.rapid_length_mm() / 1000.0,
              SavedRapids(report));
+  if (report.corner_feed_length_mm() > 0.0)
+    fmt::print(stderr, "            {:.2f} m of it slower in inner corners\n",
+               report.corner_feed_length_mm() / 1000.0);
   fmt::print(stderr, "  leads     {}\n", LeadsLine(report.leads()));
   if (report.certificate_defect_count() > 0) {
     fmt::print(stderr,
@@ -413,6 +416,10 @@ void AddMotionOptions(CLI::App& app, OperationOptions& op) {
   AddNumber(app, "--lead-sweep", op.lead_sweep, "sweep of these arcs, degrees, 10 to 90; default 90");
   AddNumber(app, "--lead-feed", op.lead_feed, "feed of leads, mm/min; default --feed");
   AddNumber(app, "--link-feed", op.link_feed, "feed of links between passes, mm/min; default --feed");
+  AddNumber(app, "--corner-feed", op.corner_feed,
+            "lowest feed in inner corners of passes, mm/min: the feed falls there so that the ball cuts no "
+            "faster than\n"
+            "at --feed along a straight wall; default: corners run at --feed");
   app.add_flag(
       "--keep-feed", op.keep_feed,
       "passes keep the feed on steep descents: they cut no deeper than --allowance, which must be given");

@@ -36,7 +36,7 @@ const std::vector<Group>& Groups() {
         "machine-z-safe"}},
       {"Motion",
        {"clearance", "approach-gap", "high-rapids", "low-rapids", "lead-radius", "lead-sweep", "lead-feed",
-        "link-feed", "keep-feed", "plunge-angle"}},
+        "link-feed", "corner-feed", "keep-feed", "plunge-angle"}},
       {"Program",
        {"post", "dialect", "work-offset", "control-deviation", "no-arcs", "inch", "restart-points",
         "line-numbers", "program-number", "assume"}},

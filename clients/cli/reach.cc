@@ -26,7 +26,7 @@ absl::StatusOr<v1::TabulateReachRequest> MakeRequest(const ReachOptions& options
   v1::TabulateReachRequest request;
   absl::StatusOr<v1::ModelSource> source = ReadModel(options.model, options.reading);
   if (!source.ok()) return source.status();
-  absl::StatusOr<v1::Setup> setup = MakeSetup(options.setup);
+  absl::StatusOr<v1::Setup> setup = MakeSetup(options.setup, options.reading.length_unit);
   if (!setup.ok()) return setup.status();
   v1::Job& job = *request.mutable_job();
   *job.mutable_source() = *std::move(source);

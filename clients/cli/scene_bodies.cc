@@ -39,7 +39,8 @@ render::Box BoxOf(const std::vector<v1::MeshBlock>& mesh) {
 
 std::optional<Prism> StockOf(const Scene& scene, const render::Box& part) {
   const v1::Stock& stock = scene.setup.stock();
-  if (stock.body_case() == v1::Stock::BODY_NOT_SET) return std::nullopt;
+  // A stock with a model of its own is not drawn.
+  if (stock.body_case() == v1::Stock::BODY_NOT_SET || stock.has_model()) return std::nullopt;
   Prism prism{"stock", {}, part.min[2], stock.has_top_z_mm() ? stock.top_z_mm() : part.max[2]};
   if (scene.report.has_setup_sheet()) prism.top = scene.report.setup_sheet().stock_top_z_mm();
   if (stock.has_block()) {

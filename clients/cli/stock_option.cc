@@ -27,7 +27,7 @@ bool ReadNumbers(const std::string& text, std::size_t least, std::size_t most, s
 
 }  // namespace
 
-absl::Status ReadStockBody(const std::string& text, v1::Stock& stock) {
+absl::Status ReadStockBody(const std::string& text, const ReadingOptions& reading, v1::Stock& stock) {
   const std::size_t end = std::min(text.find_first_of(",:"), text.size());
   const std::string kind = text.substr(0, end), rest = text.substr(end);
   std::vector<double> numbers;
@@ -45,9 +45,15 @@ absl::Status ReadStockBody(const std::string& text, v1::Stock& stock) {
     return ReadRing(points == std::string::npos ? "" : rest.substr(points), "--stock",
                     stock.mutable_outline()->mutable_outline_xy_mm());
   }
+  if (kind == "model" && rest.size() > 1 && rest.front() == ':') {
+    absl::StatusOr<v1::ModelSource> model = ReadModelFile(rest.substr(1), reading);
+    if (!model.ok()) return model.status();
+    *stock.mutable_model() = *std::move(model);
+    return absl::OkStatus();
+  }
   return absl::InvalidArgumentError(
-      fmt::format("--stock \"{}\"; must be block[,MARGIN], cylinder,D[,X,Y], \"outline: X,Y X,Y X,Y\" or "
-                  "outline:@FILE",
+      fmt::format("--stock \"{}\"; must be block[,MARGIN], cylinder,D[,X,Y], \"outline: X,Y X,Y X,Y\", "
+                  "outline:@FILE or model:FILE",
                   text.substr(0, 80)));
 }
 

@@ -110,7 +110,7 @@ absl::StatusOr<v1::VerifyProgramRequest> MakeRequest(const VerifyOptions& option
   if (!program.ok()) return program.status();
   NameProgram(options.program);
   if (program->empty()) return absl::InvalidArgumentError(fmt::format("{} is empty", options.program));
-  absl::StatusOr<v1::Setup> setup = MakeSetup(options.setup);
+  absl::StatusOr<v1::Setup> setup = MakeSetup(options.setup, options.reading.length_unit);
   if (!setup.ok()) return setup.status();
   *request.mutable_source() = *std::move(source);
   *request.mutable_setup() = *std::move(setup);

@@ -70,6 +70,7 @@ void ReadFeeds(const v1::Feeds& proto, const std::string& at, Operation& op, Fie
   op.keep_feed = proto.keep_on_passes();
   if (proto.has_link_mm_per_min()) op.link_feed = feed("link_mm_per_min", proto.link_mm_per_min());
   if (proto.has_lead_mm_per_min()) op.lead_feed = feed("lead_mm_per_min", proto.lead_mm_per_min());
+  if (proto.has_corner_mm_per_min()) op.corner_feed = feed("corner_mm_per_min", proto.corner_mm_per_min());
 }
 
 void CheckSpindle(const Tool& tool, const Machine& machine, const std::string& at, FieldErrors& errors) {
@@ -297,6 +298,7 @@ v1::Operation ToProto(const Job& job, const Operation& op) {
   if (op.keep_feed) proto.mutable_feeds()->set_keep_on_passes(true);
   if (op.link_feed) proto.mutable_feeds()->set_link_mm_per_min(*op.link_feed);
   if (op.lead_feed) proto.mutable_feeds()->set_lead_mm_per_min(*op.lead_feed);
+  if (op.corner_feed) proto.mutable_feeds()->set_corner_mm_per_min(*op.corner_feed);
   proto.set_accept_depth_mm(op.accept_depth);
   proto.set_max_unreached_fraction(op.max_unreached);
   const Selection& s = op.selection;

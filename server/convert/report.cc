@@ -393,6 +393,7 @@ v1::Report ToProto(const JobReport& from, const Job& job, const Resolved& resolv
   *report.mutable_leads() = LeadsToProto(from.leads);
   report.set_rapids_saved_by_stated_stock_mm(
       StockIsStated(job.setup) ? 0.0 : Number(from.motion.saved_by_low_rapids));
+  report.set_corner_feed_length_mm(Number(from.motion.corner_length));
   report.set_certificate_defect_count(static_cast<int>(from.certificate_defects));
   for (std::size_t id = 0; id < from.regions.size(); ++id) {
     *report.add_regions() =

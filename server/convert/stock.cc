@@ -63,6 +63,8 @@ void ReadStock(const v1::Stock& proto, std::string_view at, Setup& setup, FieldE
         ReadRing(proto.outline().outline_xy_mm(), At(at, "outline.outline_xy_mm"), points, errors)};
   } else if (proto.has_cylinder()) {
     setup.stock_body = ReadCylinder(proto.cylinder(), At(at, "cylinder"), errors);
+  } else if (proto.has_model()) {
+    setup.stock_body = ModelStock{};  // LoadStock reads it
   }
 }
 
@@ -80,6 +82,8 @@ v1::Stock StockToProto(const Setup& setup) {
       proto.mutable_cylinder()->add_center_xy_mm(cylinder->center->x());
       proto.mutable_cylinder()->add_center_xy_mm(cylinder->center->y());
     }
+  } else if (const auto* model = std::get_if<ModelStock>(&setup.stock_body)) {
+    proto.mutable_model()->set_model_sha256(model->digest);
   }
   return proto;
 }

@@ -1,12 +1,16 @@
 #include "server/handlers/prepare.h"
 
+#include <memory>
 #include <utility>
+#include <variant>
 
 #include <fmt/format.h>
 
 #include "cam/plan/choose_up.h"
+#include "cam/plan/plan.h"
 #include "core/base/status.h"
 #include "server/call.h"
+#include "server/convert/fields.h"
 #include "server/convert/job.h"
 #include "server/digest.h"
 #include "server/limits.h"
@@ -30,6 +34,20 @@ absl::StatusOr<UprightModel> MakeUpright(LoadedModel model, const Setup& setup, 
   PM_ASSIGN_OR_RETURN(ChosenUp chosen, ChooseUp(model.model, setup, run));
   for (Diagnostic& finding : chosen.findings) model.remarks.push_back(std::move(finding));
   return UprightModel{std::move(model), std::move(chosen.setup)};
+}
+
+absl::Status LoadStock(const v1::Stock& stock, std::string_view at, Setup& setup, const RunContext& run,
+                       const ModelAccess& models) {
+  if (!std::holds_alternative<ModelStock>(setup.stock_body)) return absl::OkStatus();
+  PM_ASSIGN_OR_RETURN(LoadedModel loaded, LoadModel(stock.model(), At(at, "model"), run, models));
+  PM_RETURN_IF_ERROR(RequireSound(loaded));
+  PM_RETURN_IF_ERROR(run.Check());
+  Setup plain;
+  plain.placement = setup.placement;
+  std::string digest = loaded.digest;
+  PM_ASSIGN_OR_RETURN(Surface surface, BuildPlacedSurface(std::move(loaded.model), plain, run));
+  setup.stock_body = ModelStock{std::make_shared<const Surface>(std::move(surface)), std::move(digest)};
+  return absl::OkStatus();
 }
 
 Diagnostics HeaderRemarks(const Diagnostics& remarks) {
@@ -78,6 +96,7 @@ absl::StatusOr<PreparedJob> PrepareJob(const v1::Job& job, const v1::Post& post,
   PM_ASSIGN_OR_RETURN(UprightModel upright, MakeUpright(std::move(loaded), prepared.job.setup, run));
   prepared.model = std::move(upright.model);
   prepared.job.setup = std::move(upright.setup);
+  PM_RETURN_IF_ERROR(LoadStock(job.setup().stock(), "job.setup.stock", prepared.job.setup, run, models));
   prepared.job.unitless_file = prepared.model.unitless;
   prepared.job.model_remarks = Placed(prepared.model.remarks, prepared.job.setup.placement);
   prepared.job.path_limits = {.length = limits::kMaxCutLengthMm, .points = limits::kMaxPathPoints};

@@ -34,6 +34,11 @@ struct UprightModel {
 };
 absl::StatusOr<UprightModel> MakeUpright(LoadedModel model, const Setup& setup, const RunContext& run);
 
+// Reads the model of a stock that has one, and places it as `setup` places the part (after MakeUpright). Other
+// stock is left as it is. `at` is the path of the stock in its request. Errors as LoadModel.
+absl::Status LoadStock(const v1::Stock& stock, std::string_view at, Setup& setup, const RunContext& run,
+                       const ModelAccess& models);
+
 // Those of the remarks that the header of a program states and every answer repeats. Without points.
 Diagnostics HeaderRemarks(const Diagnostics& remarks);
 

@@ -360,6 +360,7 @@ absl::Status Make(const Call& call, const v1::VerifyProgramRequest& request, con
   PM_RETURN_IF_ERROR(run.Check());
   PM_ASSIGN_OR_RETURN(UprightModel upright, MakeUpright(std::move(model), job.setup, run));
   job.setup = std::move(upright.setup);
+  PM_RETURN_IF_ERROR(LoadStock(request.setup().stock(), "setup.stock", job.setup, run, ModelsOf(call)));
   PM_ASSIGN_OR_RETURN(
       const std::shared_ptr<const Surface> built,
       PlacedSurface(std::move(upright.model.model), upright.model.digest, job.setup, run, ModelsOf(call)));

@@ -150,6 +150,8 @@ INSTANTIATE_TEST_SUITE_P(
               "job.operations[0].feeds.link_mm_per_min = 0; must be in [0.1, 1e+06]"},
         Wrong{"LeadFeed", [](Request& r) { OperationOf(r).mutable_feeds()->set_lead_mm_per_min(kNan); },
               "job.operations[0].feeds.lead_mm_per_min = nan"},
+        Wrong{"CornerFeed", [](Request& r) { OperationOf(r).mutable_feeds()->set_corner_mm_per_min(0); },
+              "job.operations[0].feeds.corner_mm_per_min = 0; must be in [0.1, 1e+06]"},
         Wrong{"AcceptDepth", [](Request& r) { OperationOf(r).set_accept_depth_mm(-1); },
               "job.operations[0].accept_depth_mm = -1; must be in [0, 1000]"},
         Wrong{"MaxUnreached", [](Request& r) { OperationOf(r).set_max_unreached_fraction(-0.1); },
@@ -487,6 +489,7 @@ Request Unusual() {
   op.mutable_feeds()->set_link_mm_per_min(2000);
   op.mutable_feeds()->set_keep_on_passes(true);
   op.mutable_feeds()->set_lead_mm_per_min(600);
+  op.mutable_feeds()->set_corner_mm_per_min(450);
   op.set_accept_depth_mm(1.5);
   op.set_max_unreached_fraction(0.75);
   op.mutable_heights()->set_floor_z_mm(-3);
@@ -605,6 +608,8 @@ TEST(JobDigestTest, SeesEveryFieldAndNoDefault) {
   EXPECT_TRUE(differs([](Request& r) { OperationOf(r).mutable_feeds()->set_link_mm_per_min(900); }));
   EXPECT_TRUE(differs([](Request& r) { OperationOf(r).mutable_feeds()->set_keep_on_passes(true); }));
   EXPECT_TRUE(differs([](Request& r) { OperationOf(r).mutable_feeds()->set_lead_mm_per_min(900); }));
+  EXPECT_TRUE(differs([](Request& r) { OperationOf(r).mutable_feeds()->set_corner_mm_per_min(300); }));
+  EXPECT_TRUE(differs([](Request& r) { *StockOf(r).mutable_model() = r.job().source(); }));
   EXPECT_TRUE(differs([](Request& r) { OperationOf(r).set_accept_depth_mm(1); }));
   EXPECT_TRUE(differs([](Request& r) {
     ToolOf(r).set_stickout_mm(40);

@@ -190,7 +190,7 @@ TEST(DaemonKills, AClockThatJumpsChangesNothing) {
   const auto later =
       std::chrono::floor<std::chrono::days>(std::chrono::system_clock::now()) + std::chrono::days(3650);
   const std::string year = std::to_string(int(std::chrono::year_month_day(later).year()));
-  EXPECT_THAT(daemon.process().Err(), ::testing::HasSubstr("[" + year + "-")) << "the clock did not jump";
+  EXPECT_THAT(daemon.process().Err(), ::testing::HasSubstr(year + "-")) << "the clock did not jump";
   daemon.process().Signal(SIGTERM);
   EXPECT_EQ(daemon.process().Wait(), 0);
 }

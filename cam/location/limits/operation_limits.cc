@@ -121,8 +121,7 @@ std::optional<AllowedHeights> OperationLimits::HeightsOver(const Vec2& q, double
   AllowedHeights heights;
   if (containment_->top_z) heights.highest = *containment_->top_z + r;
   for (const Obstacle& o : containment_->obstacles) {
-    const bool beside = ObstacleRoom(o, Lift(q, -kInfinity), params_.tool_radius) >= 0.0;
-    if (!beside) heights.lowest = std::max(heights.lowest, o.top_z + o.margin + r);
+    heights.lowest = std::max(heights.lowest, LowestTipOver(o, q, params_.tool_radius) + r);
   }
   for (const BesideStrip& strip : containment_->beside) {
     if (StripRoom(strip, Lift(q, -kInfinity)) < 0.0)
@@ -159,6 +158,7 @@ double OperationLimits::ClearHeight(const Vec2& a, const Vec2& b) const {
            (Xy(box.min).array() <= high.array()).all();
   };
   for (const Obstacle& o : containment_->obstacles) {
+    if (o.stock != nullptr) continue;  // links look at the stock themselves
     if (meets(o.outline, o.margin + params_.tool_radius))
       clear = std::max(clear, o.top_z + o.margin + params_.ball_radius);
   }

@@ -141,6 +141,8 @@ MOTION_OPTIONS = (
     Option("LeadFeed", MOTION, "Speed", 0.0, "Feed of leads. 0: the cutting feed", "operation.feeds.lead_mm_per_min", factor=MM_PER_MIN),
     Option("LinkFeed", MOTION, "Speed", 0.0, "Feed of links between passes. 0: the cutting feed", "operation.feeds.link_mm_per_min",
            factor=MM_PER_MIN),
+    Option("CornerFeed", MOTION, "Speed", 0.0, "Lowest feed in inner corners of passes. 0: the cutting feed", "operation.feeds.corner_mm_per_min",
+           factor=MM_PER_MIN),
     Option("KeepFeed", MOTION, "Bool", False, "Passes keep the feed on steep descents; needs stock", "operation.feeds.keep_on_passes"),
     Option("PlungeAngle", MOTION, "Angle", 30.0, "Descents steeper than this run at plunge feed, 1 to 30 degrees",
            "operation.feeds.plunge_angle_deg"),

@@ -165,7 +165,7 @@ function stated<K extends string>(choice: Choice, names: Record<K, string>): Par
 // How the tool comes onto passes, leaves them, and gets to the next one.
 function makeMotion(choice: Choice): Pick<Operation, "leads" | "feeds"> {
   const leads = stated(choice, { radiusMm: "lead-radius", sweepDeg: "lead-sweep" });
-  const feeds = stated(choice, { plungeAngleDeg: "plunge-angle", linkMmPerMin: "link-feed", leadMmPerMin: "lead-feed" });
+  const feeds = stated(choice, { plungeAngleDeg: "plunge-angle", linkMmPerMin: "link-feed", leadMmPerMin: "lead-feed", cornerMmPerMin: "corner-feed" });
   return {
     leads: create(LeadsSchema, leads),
     feeds: create(FeedsSchema, { ...feeds, keepOnPasses: flagOf(choice, "keep-feed") }),

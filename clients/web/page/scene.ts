@@ -249,7 +249,7 @@ function pairs(xy: readonly number[]): [number, number][] {
 // The stock has no lower end; it is drawn down to the lowest point of the part.
 function stockItem({ setup, report }: SceneSource, part: Box): unknown {
   const stock = setup?.stock;
-  if (stock?.body.case === undefined) return null;
+  if (stock?.body.case === undefined || stock.body.case === "model") return null;
   const top = report?.setupSheet?.stockTopZMm ?? stock.topZMm ?? part.max[2];
   const item = (outline: [number, number][]): unknown => ({ bottom: part.min[2], top, outline });
   if (stock.body.case === "block") {

@@ -89,6 +89,7 @@ export const settings: readonly Setting[] = [
   s("lead-sweep", "motion", "number", "Lead sweep", { unit: "\u00b0", hint: "90", help: "Sweep of these arcs, 10 to 90 degrees.", fields: ["leads.sweep_deg"] }),
   s("lead-feed", "motion", "number", "Lead feed", { unit: "mm/min", hint: "as the feed", help: "Feed of leads.", fields: ["feeds.lead_mm_per_min"] }),
   s("link-feed", "motion", "number", "Link feed", { unit: "mm/min", hint: "as the feed", help: "Feed of links between passes.", fields: ["feeds.link_mm_per_min"] }),
+  s("corner-feed", "motion", "number", "Corner feed", { unit: "mm/min", hint: "as the feed", help: "Lowest feed in inner corners of passes, where the ball cuts more than along a straight wall.", fields: ["feeds.corner_mm_per_min"] }),
   s("plunge-angle", "motion", "number", "Plunge feed from", { unit: "\u00b0", hint: "30", help: "Descents steeper than this run at plunge feed, 1 to 30 degrees.", fields: ["feeds.plunge_angle_deg"] }),
   s("keep-feed", "motion", "flag", "Passes keep the feed", { help: "Passes keep the feed on steep descents, too. It needs the allowance or the body of the stock.", fields: ["keep_on_passes"] }),
   s("approach-gap", "motion", "number", "Approach gap", { unit: "mm", hint: "1", help: "Distance from the stock at which a rapid changes to feed.", fields: ["approach_gap_mm"] }),

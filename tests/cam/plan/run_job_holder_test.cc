@@ -1,6 +1,7 @@
 // Holders: what they keep the ball from in closed form, moves judged by plain geometry.
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -136,24 +137,54 @@ TEST(Holder, KeepsOffClamps) {
   EXPECT_FALSE(judged.holder_ok.value_or(true));
 }
 
-// The stock beside the part is as high as the holder begins, and more.
-TEST(Holder, ThatStandsInTheStockIsFound) {
+// The stock beside the part stands 8 mm high, and the holder begins 5 mm above the tip. The ball keeps as far
+// off it as the holder is wide. A prism and a model of the same shape do the same.
+TEST(Holder, KeepsOffTheStockBesideThePart) {
   const Surface surface = PlacedSurface(Plane(10));
   Job job = HolderJob(5.0);
   job.setup.stock_body = OutlineStock{{{14, -20}, {20, -20}, {20, 20}, {14, 20}}};
   job.setup.stock_top_z = 8.0;
   job.setup.allowance = 0.3;
   job.setup.allowance_stated = true;
-  const JobResult result = Mill(surface, job);
-  EXPECT_EQ(result.report.outcome, Outcome::kVerificationFailed);
-  EXPECT_TRUE(Has(result.report.diagnostics, "HOLDER_IN_STOCK"));
-  // A depth that the ball may cut is none for the holder.
-  job.operation.accept_depth = 25.0;
-  EXPECT_TRUE(Has(Mill(surface, job).report.diagnostics, "HOLDER_IN_STOCK"));
-  job.operation.accept_depth = 0.0;
-  job.operation.tool.stickout = 9.0;
-  const JobResult longer = Mill(surface, job);
-  EXPECT_EQ(longer.report.outcome, Outcome::kComplete) << Describe(longer);
+  const auto bar = std::make_shared<const Surface>(
+      PlacedSurface(Single(Bilinear({14, -20, 8}, {20, -20, 8}, {14, 20, 8}, {20, 20, 8}))));
+  Job of_model = job;
+  of_model.setup.stock_body = ModelStock{bar, "bar"};
+  // The strip that the holder keeps the ball off, beyond the clearance that the stock has anyway.
+  const double edge = 14.0 - kHolderRadius - kClearance;
+  for (const Job& each : {job, of_model}) {
+    const JobResult result = Mill(surface, each);
+    ASSERT_EQ(result.report.outcome, Outcome::kCompleteWhereReachable) << Describe(result);
+    EXPECT_TRUE(result.report.verify.holder_ok.value_or(false));
+    double nearest = -kInfinity;
+    for (const Move& move : result.motion.toolpath.moves) {
+      if (move.to.z() < 4.0) nearest = std::max(nearest, move.to.x());
+    }
+    EXPECT_LE(nearest, edge);
+    EXPECT_GE(nearest, edge - 0.3);
+    const double strip = 20.0 * (10.0 - edge);
+    EXPECT_NEAR(result.report.verify.unreachable_area[UncutReason::kHolder], strip, 0.12 * strip);
+    EXPECT_NEAR(AreaFor(result, UnreachableReason::kHolder), strip, 0.12 * strip);
+    ASSERT_TRUE(result.report.verify.finishing_stickout);
+    EXPECT_NEAR(*result.report.verify.finishing_stickout, 8.0 + kClearance, 0.05);
+    // A depth that the ball may cut is none for the holder.
+    Job deep = each;
+    deep.operation.accept_depth = 25.0;
+    EXPECT_EQ(Mill(surface, deep).report.outcome, Outcome::kCompleteWhereReachable);
+    Job longer = each;
+    longer.operation.tool.stickout = 9.0;
+    const JobResult whole = Mill(surface, longer);
+    EXPECT_EQ(whole.report.outcome, Outcome::kComplete) << Describe(whole);
+    // Planted fault: a program that was planned without the holder.
+    Job without = each;
+    without.operation.tool.holder.clear();
+    const JobResult planned = Mill(surface, without);
+    ASSERT_FALSE(planned.program.empty()) << Describe(planned);
+    const VerifyReport judged = Judge(surface, each, planned.program);
+    EXPECT_TRUE(Has(judged.findings, "HOLDER_IN_STOCK"));
+    EXPECT_FALSE(judged.holder_ok.value_or(true));
+    EXPECT_FALSE(judged.ok());
+  }
 }
 
 // Low rapids keep the holder off what stands beside their way.

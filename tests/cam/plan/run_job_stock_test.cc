@@ -1,6 +1,7 @@
 // Jobs in stock as it lies on the machine: how deep passes cut into it, and what keeps off it.
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include <gtest/gtest.h>
 
@@ -157,6 +158,102 @@ TEST(JobStock, TheVerifierFindsMovesInTheBlock) {
   EXPECT_TRUE(Has(findings("G0 X30 Y0\nG0 Z1.5\nG0 X0 Y-100\nG0 Z6\n"), "RAPID_DOG_LEG"));
   EXPECT_TRUE(Has(findings("G1 Z1 F300\nG1 X15 F900\nG0 Z6\n"), "CUT_TOO_DEEP"));
   EXPECT_FALSE(Has(findings("G1 Z1.6 F300\nG1 X15 F900\nG0 Z6\n"), "CUT_TOO_DEEP"));
+}
+
+ModelStock StockOf(const PatchModel& model) {
+  return {std::make_shared<const Surface>(PlacedSurface(model)), "stock"};
+}
+
+// A stock with a model of its own: a plate above the surface, by so much as passes would have to cut.
+TEST(JobStock, AModelNeedsRoughingWhereItIsThick) {
+  const Surface surface = PlacedSurface(Plane(10));
+  Job job = LimitedJob();
+  job.setup.stock_body = StockOf(Plane(15, 3.0, 0.05, 0.0));  // 2.5 to 3.5 mm over the surface
+  const JobResult result = Mill(surface, job);
+  EXPECT_EQ(result.report.outcome, Outcome::kNeedsRoughing);
+  EXPECT_TRUE(result.program.empty());
+  EXPECT_TRUE(Has(result.report.diagnostics, "STOCK_STATED"));
+  const double thickest = 3.5 / std::hypot(1.0, 0.05);
+  job.operation.accept_depth = thickest - 0.05;
+  EXPECT_EQ(Mill(surface, job).report.outcome, Outcome::kNeedsRoughing);
+  job.operation.accept_depth = thickest + 0.05;
+  const JobResult accepted = Mill(surface, job);
+  EXPECT_EQ(accepted.report.outcome, Outcome::kComplete) << Describe(accepted);
+  // Nothing is above the top that is given.
+  job.operation.accept_depth = 0.0;
+  job.setup.stock_top_z = 0.3;
+  EXPECT_EQ(Mill(surface, job).report.outcome, Outcome::kComplete);
+}
+
+// Two surfaces with a ridge of stock between them, 4 mm high at one end and 12 mm at the other. Rapids over the
+// low end are lower than those over the high one, and none touches it.
+TEST(JobStock, RapidsAreAsHighAsTheModelNeeds) {
+  const Surface surface =
+      PlacedSurface(Join({Transformed(Plane(5), Eigen::Affine3d(Eigen::Translation3d(-15, 0, 0))),
+                          Transformed(Plane(5), Eigen::Affine3d(Eigen::Translation3d(15, 0, 0)))}));
+  const auto highest = [&](double left, double right) {
+    Job job = LimitedJob();
+    job.setup.stock_body =
+        StockOf(Single(Bilinear({-6, -30, left}, {6, -30, left}, {-6, 30, right}, {6, 30, right})));
+    job.setup.allowance_stated = true;
+    job.operation.selection.boundary = {RingOfBox(-20, -5, -10, 5), RingOfBox(10, -5, 20, 5)};
+    const JobResult result = Mill(surface, job);
+    EXPECT_EQ(result.report.outcome, Outcome::kComplete) << Describe(result);
+    double over = -kInfinity;
+    const std::vector<Move>& moves = result.motion.toolpath.moves;
+    for (std::size_t i = 1; i < moves.size(); ++i) {
+      const Vec3 a = moves[i - 1].to, d = moves[i].to - a;
+      for (int k = 0; k <= 200; ++k) {
+        const Vec3 c = a + d * k / 200.0;
+        if (std::abs(c.x()) > 6.0 || std::abs(c.y()) > 30.0) continue;
+        const double rise = (right - left) / 60.0, top = left + rise * (c.y() + 30.0);
+        EXPECT_GE((c.z() - top) / std::hypot(1.0, rise), kLimitedRadius) << c.transpose();
+      }
+      if (a.x() * moves[i].to.x() < 0.0) over = std::max(over, std::min(a.z(), moves[i].to.z()));
+    }
+    return over;
+  };
+  const double low = highest(4.0, 4.0), sloping = highest(4.0, 12.0), high = highest(12.0, 12.0);
+  EXPECT_LT(low, 4.0 + kLimitedRadius + 1.0 + 0.2);  // its top, the ball and the approach gap
+  EXPECT_GT(sloping, low + 2.0);
+  EXPECT_LT(sloping, high - 2.0);
+}
+
+// Planted faults: the verifier judges by the model as it does by a block.
+TEST(JobStock, TheVerifierFindsMovesInTheModel) {
+  const Surface surface = PlacedSurface(Plane(10));
+  Job job = LimitedJob();
+  job.setup.stock_body = StockOf(Single(Bilinear({12, -20, 1}, {20, -20, 1}, {12, 20, 3}, {20, 20, 3})));
+  job.setup.allowance_stated = true;
+  const Resolved resolved = *Resolve(surface, job, RunContext());
+  EXPECT_NEAR(resolved.stock_top_z, 3.0, 1e-6);
+  VerifyParams params = MakeVerifyParams(job, resolved);
+  params.finish.scallop.reset();
+  const auto findings = [&](const std::string& moves) {
+    const std::string text =
+        "G21 G17 G90 G40 G49 G94 G54 G61\nT1 M6\nS9000 M3\nG53 G0 Z0\nG0 X0 Y0\nG0 Z6\n" + moves +
+        "G53 G0 Z0\nM5\nM9\nM2\n";
+    const absl::StatusOr<VerifyReport> report =
+        VerifyProgramText(surface, job.operation.tool, text, params, RunContext());
+    EXPECT_TRUE(report.ok()) << report.status();
+    return report.ok() ? report->findings : Diagnostics();
+  };
+  // Over its middle the ridge is 2 mm high; at one end 1 mm, at the other 3 mm.
+  EXPECT_TRUE(Has(findings("G0 Z1.8\nG0 X30\nG0 Z6\n"), "RAPID_IN_STOCK"));
+  EXPECT_FALSE(Has(findings("G0 Z2.2\nG0 X30\nG0 Z6\n"), "RAPID_IN_STOCK"));
+  EXPECT_FALSE(Has(findings("G0 Y-19\nG0 Z1.4\nG0 X30\nG0 Z6\n"), "RAPID_IN_STOCK"));
+  EXPECT_TRUE(Has(findings("G0 Y19\nG0 Z2.2\nG0 X30\nG0 Z6\n"), "RAPID_IN_STOCK"));
+  EXPECT_TRUE(Has(findings("G1 Z1 F300\nG1 X15 F900\nG0 Z6\n"), "CUT_TOO_DEEP"));
+  EXPECT_FALSE(Has(findings("G1 Z1.7 F300\nG1 X15 F900\nG0 Z6\n"), "CUT_TOO_DEEP"));
+}
+
+TEST(JobStock, AModelThatIsMissingIsTold) {
+  Job job = LimitedJob();
+  job.setup.stock_body = ModelStock{};
+  const auto result = RunJob(PlacedSurface(Plane(10)), job, RunContext());
+  ASSERT_FALSE(result.ok());
+  EXPECT_NE(result.status().message().find("setup.stock.model is missing"), std::string::npos)
+      << result.status();
 }
 
 }  // namespace
