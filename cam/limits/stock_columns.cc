@@ -16,7 +16,7 @@ namespace {
 // The stock's own grid: squares along its longer side, and beside its box.
 constexpr GridResolution kColumnGrid = {.cells = 800.0, .beside = 2};
 constexpr double kPartSize = 0.4;  // squares: no part of the surface that gives a top is wider in plan
-constexpr int kMostHalvings = 40;       // halvings of a piece
+constexpr int kMostHalvings = 40;  // halvings of a piece
 constexpr float kNothing = -std::numeric_limits<float>::infinity();
 
 // Raises the tops of squares to those of the surface over them.

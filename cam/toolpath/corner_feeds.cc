@@ -56,8 +56,8 @@ class Pass {
   }
 
  private:
-  // From the centre at the end of `before` to what the ball touches there, and at the ends of both moves; zero
-  // if it touches nothing. In a corner between two walls that is the middle between both.
+  // From the centre at the end of `before` to what the ball touches there, and at the ends of both moves;
+  // zero if it touches nothing. In a corner between two walls that is the middle between both.
   Vec3 ToContact(std::size_t before, std::size_t after) const {
     Vec3 sum = Vec3::Zero();
     for (const std::size_t i : {before > first_ ? before - 1 : before, before, after}) {

@@ -10,8 +10,8 @@ namespace {
 constexpr double kStep = 0.05;  // radii: how far apart places of a cut that is too deep are measured
 constexpr std::size_t kMovesBetweenPolls = 1024;
 
-// True if stock above the lower end of a shank stands within `room` (mm, in plan) of its axis, where the lower
-// end moves from a up to b. Halves of the move are tried until one of them is level or short.
+// True if stock above the lower end of a shank stands within `room` (mm, in plan) of its axis, where the
+// lower end moves from a up to b. The move is halved until a half is level or short.
 bool ComesBesideStock(const StockSolid& stock, const Vec3& a, const Vec3& b, double room) {
   constexpr double kShort = 0.05;  // mm
   if (!stock.SegmentComesNearer(Lift(Xy(a), -kInfinity), Lift(Xy(b), -kInfinity), room)) return false;

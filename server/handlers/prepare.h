@@ -34,8 +34,8 @@ struct UprightModel {
 };
 absl::StatusOr<UprightModel> MakeUpright(LoadedModel model, const Setup& setup, const RunContext& run);
 
-// Reads the model of a stock that has one, and places it as `setup` places the part (after MakeUpright). Other
-// stock is left as it is. `at` is the path of the stock in its request. Errors as LoadModel.
+// Reads the model of a stock that has one, and places it as `setup` places the part (after MakeUpright).
+// Other stock is left as it is. `at` is the path of the stock in its request. Errors as LoadModel.
 absl::Status LoadStock(const v1::Stock& stock, std::string_view at, Setup& setup, const RunContext& run,
                        const ModelAccess& models);
 

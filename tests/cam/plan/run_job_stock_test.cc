@@ -185,8 +185,8 @@ TEST(JobStock, AModelNeedsRoughingWhereItIsThick) {
   EXPECT_EQ(Mill(surface, job).report.outcome, Outcome::kComplete);
 }
 
-// Two surfaces with a ridge of stock between them, 4 mm high at one end and 12 mm at the other. Rapids over the
-// low end are lower than those over the high one, and none touches it.
+// Two surfaces with a ridge of stock between them, 4 mm high at one end and 12 mm at the other. Rapids over
+// the low end are lower than those over the high one, and none touches it.
 TEST(JobStock, RapidsAreAsHighAsTheModelNeeds) {
   const Surface surface =
       PlacedSurface(Join({Transformed(Plane(5), Eigen::Affine3d(Eigen::Translation3d(-15, 0, 0))),
