@@ -21,6 +21,7 @@ Command AddRegions(CLI::App& app);
 Command AddReach(CLI::App& app);
 Command AddVerify(CLI::App& app);
 Command AddPosts(CLI::App& app);
+Command AddCapabilities(CLI::App& app);
 Command AddBuild(CLI::App& app);
 Command AddEdit(CLI::App& app);
 Command AddFair(CLI::App& app);

@@ -57,6 +57,8 @@ constexpr CommandEntry kEntries[] = {
      "verify part.step part.ngc --tool-diameter 6 --scallop 0.01 --dialect fanuc", AddVerify},
     {"posts", "list the dialects of programs, or print the post file of one", "posts fanuc > shop.post",
      AddPosts},
+    {"capabilities", "what a server can do: dialects, formats, limits, quotas of this caller",
+     "capabilities --server cam.example:50051 --ca ca.pem --token-file shop.token", AddCapabilities},
     {"lines", "trace contours, silhouettes, highlights and other lines of the surface",
      "lines part.step --kind contour --spacing 2 -o contours.svg", AddLines},
     {"evaluate", "points, derivatives, fundamental forms and curvatures of the surface",

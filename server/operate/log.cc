@@ -1,5 +1,8 @@
 #include "server/operate/log.h"
 
+#include <cmath>
+#include <memory>
+
 #include <absl/time/clock.h>
 #include <absl/time/time.h>
 #include <fmt/format.h>
@@ -46,9 +49,13 @@ std::string Quoted(std::string_view text) {
   return quoted + '"';
 }
 
+// JSON has no word for what is not finite.
 std::string NumberText(const LogValue& value) {
   if (const auto* whole = std::get_if<std::int64_t>(&value)) return std::to_string(*whole);
-  return fmt::format("{:.6g}", std::get<double>(value));
+  const double number = std::get<double>(value);
+  if (!std::isfinite(number)) return "null";
+  const bool is_whole = number == std::floor(number) && std::abs(number) < 1e15;
+  return is_whole ? fmt::format("{:.0f}", number) : fmt::format("{:.6g}", number);
 }
 
 bool IsWord(std::string_view text) {

@@ -53,6 +53,8 @@ SERVER = ["server", "server/convert", "server/handlers", "server/operate"]
 BELOW_SERVER = set(ALLOWED) | PROTO
 for name in SERVER:
     ALLOWED[name] = BELOW_SERVER | set(SERVER)
+# What an operator meets sees nothing of the domain.
+ALLOWED["server/operate"] = {"core/base"} | PROTO
 # The importer reads CAD files in a process of its own: geometry and the contract, nothing of planning or serving.
 for name in ["import", "import/occt"]:
     ALLOWED[name] = UP_TO_NETWORK | {"core/brep", "core/trim", "import", "import/occt"} | PROTO
@@ -60,7 +62,8 @@ for name in ["import", "import/occt"]:
 # names what it uploads.
 ALLOWED["clients/render"] = set()
 ALLOWED["clients/cli"] = set(PROTO) | {"clients/render"}
-EXTRA_FILES = {"clients/cli": {"core/base/digest.h", "server/server.h", "server/options.h", "server/serve_flags.h",
+EXTRA_FILES = {"server/operate": {"server/limits.h"},
+               "clients/cli": {"core/base/digest.h", "server/server.h", "server/options.h", "server/serve_flags.h",
                                "server/operate/serve_words.h"}}
 
 INCLUDE = re.compile(r'^\s*#\s*include\s+"([^"]+)"', re.M)

@@ -1,10 +1,11 @@
 """GetCapabilities, and readiness apart from liveness."""
+import subprocess
 import threading
 import unittest
 
 import grpc
 from certificates import Authority
-from support import TOKENS, Folder, Server, call, health, wait_until, worked_request
+from support import PATCHMILL, TOKENS, Folder, Server, call, health, wait_until, worked_request
 from test_metrics import metrics_port, scrape
 
 
@@ -43,6 +44,19 @@ class Capabilities(unittest.TestCase):
         self.assertEqual((plain.caller, list(plain.quotas)), ("", []))
         self.assertEqual({"step", "iges"} <= set(answer.model_formats), "cad_import" in answer.features)
         self.assertLessEqual({"json", "pb", "bpt", "bv", "bez", "patches"}, set(answer.model_formats))
+
+    def test_the_command_line_prints_them(self):
+        with Folder() as folder:
+            token = folder.write("token", TOKENS["ann"])
+            tokens = folder.tokens("places = 2\n")
+            with Server("--tokens", tokens, "--max-jobs", "5") as server:
+                said = subprocess.run([PATCHMILL, "capabilities", "--server", server.address, "--token-file", token],
+                                      capture_output=True, text=True, timeout=60)
+        self.assertEqual(said.returncode, 0, said.stderr)
+        self.assertRegex(said.stdout, r"(?m)^caller +ann$")
+        self.assertRegex(said.stdout, r"(?m)^limit running_jobs +5$")
+        self.assertRegex(said.stdout, r"(?m)^quota caller_jobs +2$")
+        self.assertRegex(said.stdout, r"(?m)^dialects +.*linuxcnc")
 
     def test_a_default_is_what_a_request_without_the_field_gets(self):
         job = worked_request("GenerateProgram")[0]

@@ -230,6 +230,23 @@ class Secured(unittest.TestCase):
                 with self.assertRaises((pm.ServerUnreachableError, pm.ServerLostError)):
                     client.check(MODEL, timeout_s=10)
 
+    def test_tokens_and_quotas(self):
+        tokens = self.folder / "tokens.conf"
+        tokens.write_text("[ann]\ntoken = text:token-of-ann-0001\nrequests_per_minute = 2\nplaces = 3\n")
+        with daemon("--tokens", str(tokens)) as server:
+            with pm.Client(server.address, token="token-of-nobody-1", retry=NO_RETRY) as client:
+                with self.assertRaises(pm.NotAuthenticatedError) as unknown:
+                    client.posts()
+            self.assertEqual((unknown.exception.code, unknown.exception.reason), ("UNAUTHENTICATED", "TOKEN_UNKNOWN"))
+            with pm.Client(server.address, token="token-of-ann-0001", retry=NO_RETRY) as client:
+                can = client.capabilities()
+                self.assertEqual((can.caller, can.contract), ("ann", "patchmill.v1"))
+                self.assertIn(("caller_jobs", 3.0), [(quota.name, quota.value) for quota in can.quotas])
+                client.posts()
+                with self.assertRaises(pm.QuotaError) as refused:
+                    client.posts()
+            self.assertEqual((refused.exception.limit, refused.exception.limit_value), ("caller_requests_per_minute", 2.0))
+
     def test_half_a_certificate(self):
         with pm.Client("localhost:1", tls=pm.Tls(cert=b"x")) as client:
             with self.assertRaisesRegex(pm.OptionError, "belong together"):

@@ -25,9 +25,9 @@ using testing::Patchmill;
 using testing::Slurp;
 using testing::TempDir;
 
-const std::vector<std::string> kCommands = {"mill",  "check",  "faces", "convert", "regions",
-                                            "reach", "verify", "posts", "lines",   "evaluate",
-                                            "build", "edit",   "fair"};
+const std::vector<std::string> kCommands = {"mill",     "check",  "faces", "convert",      "regions",
+                                            "reach",    "verify", "posts", "capabilities", "lines",
+                                            "evaluate", "build",  "edit",  "fair"};
 
 TEST(CliUsage, NamesTheNearestCommandAndOption) {
   const auto error = [](const std::vector<std::string>& arguments) {
