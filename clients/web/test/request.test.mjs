@@ -117,7 +117,7 @@ test("the page has every option of the command line that is about the job", asyn
   assert.ok(options.length > 60, `${options.length} options`);
   // Files of the user have a chooser each, pictures are looked at; the others are about the call, or without
   // effect.
-  const others = ["help", "output", "tool", "machine", "regions", "report", "preview", "server", "ca", "cert", "key", "threads", "timeout", "quiet", "low-rapids"];
+  const others = ["help", "output", "tool", "machine", "regions", "report", "preview", "server", "ca", "cert", "key", "token-file", "threads", "timeout", "quiet", "low-rapids"];
   const names = new Set([...settings.map((s) => s.name), ...others]);
   assert.deepEqual(options.filter((name) => !names.has(name) && !name.startsWith("picture-")), []);
 });

@@ -16,6 +16,7 @@ using google::protobuf::Message;
 const std::set<std::string> kNotAsked = {
     // Models have tests of their own.
     "Job.source",
+    "Stock.model",
     // How to answer, not what.
     "GenerateProgramRequest.outputs",
     "GenerateProgramRequest.validate_only",
