@@ -256,4 +256,25 @@ CurveNetwork DrawnMouse(const std::string& folder) {
   return Net(mouse);
 }
 
+std::vector<DrawnCurve> DrawnStrokes(const std::string& file, double scale) {
+  const Json data = LoadJson(file);
+  std::vector<DrawnCurve> curves;
+  for (const Json& stroke : data["strokes"].Items()) {
+    BezierChain chain;
+    chain.degree = 3;
+    for (const Json& segment : stroke["segments"].Items()) {
+      for (const BezierCurve& piece :
+           Pieces(data["segments"][static_cast<int>(segment.Number())]["ctrl_pts"], scale)) {
+        const std::vector<Vec3> points = Elevated(piece, 3).points;
+        chain.points.insert(chain.points.end(), points.begin() + (chain.points.empty() ? 0 : 1),
+                            points.end());
+      }
+    }
+    const std::size_t spans = (chain.points.size() - 1) / 3;
+    for (std::size_t k = 0; k <= spans; ++k) chain.breaks.push_back(double(k) / double(spans));
+    curves.push_back({std::to_string(static_cast<int>(stroke["id"].Number())), std::move(chain)});
+  }
+  return curves;
+}
+
 }  // namespace patchmill::testing

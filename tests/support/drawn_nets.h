@@ -3,7 +3,9 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
+#include "core/crossing/drawn_curve.h"
 #include "core/joining/curve_network.h"
 
 namespace patchmill::testing {
@@ -16,5 +18,9 @@ CurveNetwork DrawnWedge(const std::string& folder);
 // of three edges along its left shoulder. The wheel and strokes drawn twice are left out; two strokes end on
 // others: T-junctions. 29 x 10 x 43 mm.
 CurveNetwork DrawnMouse(const std::string& folder);
+
+// All strokes of such a file as curves, `scale` times as large, without what the file knows of nodes and
+// segments.
+std::vector<DrawnCurve> DrawnStrokes(const std::string& file, double scale);
 
 }  // namespace patchmill::testing

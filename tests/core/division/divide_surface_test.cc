@@ -1,0 +1,164 @@
+// Surfaces divided into networks: bicubics come back to rounding, others within the tolerance; poles, seams,
+// creases at knots.
+#include "core/division/divide_surface.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "core/joining/continuity.h"
+#include "core/joining/network_findings.h"
+#include "core/network/patch_network.h"
+#include "core/patch/outline_surface.h"
+
+namespace patchmill {
+namespace {
+
+// A net whose points are no simple function of their place.
+BsplinePatch Wavy(int degree, int count, std::vector<double> knots) {
+  BsplinePatch patch;
+  patch.degree_u = patch.degree_v = degree;
+  patch.knots_u = patch.knots_v = std::move(knots);
+  for (int i = 0; i < count; ++i) {
+    for (int j = 0; j < count; ++j)
+      patch.points.emplace_back(10.0 * i + j, 9.0 * j - i, 6 * std::sin(2.0 * i + 3.0 * j * j));
+  }
+  return patch;
+}
+DividedSurface Divided(const BsplinePatch& patch, const Division& division) {
+  const auto divided = DivideSurface(patch, division, RunContext());
+  EXPECT_TRUE(divided.ok()) << divided.status();
+  if (!divided.ok()) return {};
+  for (const Diagnostic& d : divided->findings) {
+    EXPECT_NE(d.severity, Severity::kError) << d.code << " " << d.message;
+  }
+  return *divided;
+}
+ContinuityReport Continuity(const PatchModel& model) {
+  const auto network = BuildNetwork(model);
+  EXPECT_TRUE(network.ok());
+  const auto report = MeasureContinuity(*network, 50, RunContext(1));
+  EXPECT_TRUE(report.ok());
+  return *report;
+}
+
+TEST(DivideSurface, ABicubicSplineComesBackToRounding) {
+  const BsplinePatch patch = Wavy(3, 7, {0, 0, 0, 0, 1, 2, 4, 5, 5, 5, 5});
+  const DividedSurface divided = Divided(patch, {});
+  ASSERT_EQ(divided.joined.model.patches.size(), 16u);
+  EXPECT_LE(divided.max_distance, 1e-9);
+  // The places of equal parameters are the same, too: knots 0 1 2 4 5 of 5.
+  const double knots[] = {0, 0.2, 0.4, 0.8, 1};
+  for (int i = 0; i < 4; ++i) {
+    for (int j = 0; j < 4; ++j) {
+      const PatchShape& shape = divided.joined.model.patches[static_cast<std::size_t>(4 * i + j)].shape;
+      for (const double a : {0.25, 0.7}) {
+        const Vec3 wanted = Position(PatchShape(patch), std::lerp(knots[i], knots[i + 1], a),
+                                     std::lerp(knots[j], knots[j + 1], 0.4));
+        EXPECT_LE((Position(shape, a, 0.4) - wanted).norm(), 1e-9);
+      }
+    }
+  }
+  for (const EdgeContinuity& joint : Continuity(divided.joined.model).edges) {
+    EXPECT_LE(joint.max_gap, 1e-10);
+    EXPECT_LE(joint.max_angle, 1e-7);
+  }
+}
+
+TEST(DivideSurface, ASkinThroughSectionsComesBackToRounding) {
+  std::vector<Curve> sections;
+  for (const double y : {0.0, 30.0, 65.0, 109.0}) {
+    sections.push_back(BezierCurve{
+        {Vec3(0, y, 0), Vec3(20, y + 3, 12 + 0.1 * y), Vec3(45, y, 20 - 0.1 * y), Vec3(65, y, 2)}});
+  }
+  const auto skin = SkinSurface(sections);
+  ASSERT_TRUE(skin.ok());
+  const DividedSurface divided = Divided(*skin, {.parts_u = 3});
+  EXPECT_EQ(divided.joined.model.patches.size(), 9u);
+  EXPECT_LE(divided.max_distance, 1e-9);
+}
+
+TEST(DivideSurface, AHigherDegreeIsMetWithinTheTolerance) {
+  const BsplinePatch patch = Wavy(4, 5, {0, 0, 0, 0, 0, 1, 1, 1, 1, 1});
+  for (const double tolerance : {1e-1, 1e-3}) {
+    const DividedSurface divided = Divided(patch, {.tolerance = tolerance});
+    EXPECT_LE(divided.max_distance, tolerance);
+  }
+}
+
+TEST(DivideSurface, ARationalQuarterOfACylinderIsMetWithinTheTolerance) {
+  BsplinePatch patch;
+  patch.degree_u = 2, patch.degree_v = 1;
+  patch.knots_u = {0, 0, 0, 1, 1, 1};
+  patch.knots_v = {0, 0, 1, 1};
+  for (const Vec2& q : {Vec2(10, 0), Vec2(10, 10), Vec2(0, 10)}) {
+    for (const double z : {0.0, 20.0}) patch.points.push_back(Lift(q, z));
+  }
+  patch.weights = {1, 1, std::sqrt(0.5), std::sqrt(0.5), 1, 1};
+  const DividedSurface divided = Divided(patch, {.tolerance = 1e-4});
+  EXPECT_LE(divided.max_distance, 1e-4);
+  for (const Patch& p : divided.joined.model.patches) {
+    EXPECT_NEAR(Xy(Position(p.shape, 0.37, 0.6)).norm(), 10.0, 2e-4);
+  }
+}
+
+TEST(DivideSurface, ACreaseAtAKnotStaysOne) {
+  // Two planes that meet at x = 10: degree 1.
+  BsplinePatch patch;
+  patch.degree_u = patch.degree_v = 1;
+  patch.knots_u = {0, 0, 1, 2, 2};
+  patch.knots_v = {0, 0, 1, 1};
+  for (const Vec3& p : {Vec3(0, 0, 0), Vec3(10, 0, 5), Vec3(20, 0, 0)}) {
+    patch.points.push_back(p), patch.points.push_back(p + Vec3(0, 10, 0));
+  }
+  const DividedSurface divided = Divided(patch, {});
+  EXPECT_LE(divided.max_distance, 1e-12);
+  EXPECT_EQ(std::ranges::count_if(divided.network.edges, [](const NetworkEdge& e) { return e.crease; }), 1);
+}
+
+TEST(DivideSurface, SectionsThatEndInAPointGiveAPole) {
+  std::vector<Curve> sections;
+  for (int k = 0; k < 4; ++k) {
+    const double w = 10 - 10.0 * k / 3, y = 10.0 * k, z = 10 - 0.1 * k * k;
+    sections.push_back(
+        BezierCurve{{Vec3(-w, y, z - w), Vec3(-w / 3, y, z), Vec3(w / 3, y, z), Vec3(w, y, z - w)}});
+  }
+  const auto skin = SkinSurface(sections);
+  ASSERT_TRUE(skin.ok());
+  const DividedSurface divided = Divided(*skin, {.parts_u = 2, .tolerance = 0.05});
+  ASSERT_FALSE(divided.joined.model.patches.empty());
+  EXPECT_LE(divided.max_distance, 0.05);
+  const auto triangles = std::ranges::count_if(divided.network.faces,
+                                               [](const NetworkFace& f) { return f.vertices.size() == 3; });
+  EXPECT_GE(triangles, 2);
+}
+
+TEST(DivideSurface, AClosedSurfaceHasASeamWithoutBorder) {
+  // A tube of four straight walls with rounded corners would do; here a closed cubic ring of 6 points.
+  BsplinePatch patch;
+  patch.degree_u = 3, patch.degree_v = 1;
+  for (int k = 0; k < 13; ++k) patch.knots_u.push_back(k - 3);
+  patch.knots_v = {0, 0, 1, 1};
+  for (int k = 0; k < 9; ++k) {
+    const Vec2 q(10 * std::cos(k * kPi / 3), 8 * std::sin(k * kPi / 3));
+    patch.points.push_back(Lift(q, 0)), patch.points.push_back(Lift(q, 15));
+  }
+  const DividedSurface divided = Divided(patch, {});
+  EXPECT_LE(divided.max_distance, 1e-9);
+  const auto network = BuildNetwork(divided.joined.model);
+  ASSERT_TRUE(network.ok());
+  EXPECT_EQ(network->open_edge_count, 12);  // both ends of the tube
+  EXPECT_EQ(network->euler_characteristic, 0);
+  for (const EdgeContinuity& joint : Continuity(divided.joined.model).edges) EXPECT_LE(joint.max_angle, 1e-7);
+}
+
+TEST(DivideSurface, EndsWhenItIsCancelled) {
+  RunContext run;
+  run.Cancel();
+  const auto divided = DivideSurface(Wavy(3, 4, {0, 0, 0, 0, 1, 1, 1, 1}), {}, run);
+  EXPECT_EQ(divided.status().code(), absl::StatusCode::kCancelled);
+}
+
+}  // namespace
+}  // namespace patchmill
