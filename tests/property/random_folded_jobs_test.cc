@@ -12,7 +12,7 @@ TEST_P(RandomFoldedJobs, KeepThePromises) {
   const auto seed = static_cast<std::uint64_t>(GetParam());
   ExpectPromisesKept(DrawJob(seed, /*folds=*/true, /*rational=*/false), seed);
 }
-INSTANTIATE_TEST_SUITE_P(Seeds, RandomFoldedJobs, JobSeeds(2000, kSanitized ? 2 : 10));
+INSTANTIATE_TEST_SUITE_P(Seeds, RandomFoldedJobs, JobSeeds(2000, kSanitized ? 2 : CountOf(6, 10)));
 // Spots of a wall that the wall beside it blocks. Raising the centre away from both leaves more than moving
 // it sideways.
 INSTANTIATE_TEST_SUITE_P(BesideWalls, RandomFoldedJobs, ::testing::Values(2116));

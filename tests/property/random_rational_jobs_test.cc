@@ -12,7 +12,7 @@ TEST_P(RandomRationalJobs, KeepThePromises) {
   const auto seed = static_cast<std::uint64_t>(GetParam());
   ExpectPromisesKept(DrawJob(seed, /*folds=*/false, /*rational=*/true), seed);
 }
-INSTANTIATE_TEST_SUITE_P(Seeds, RandomRationalJobs, JobSeeds(3000, kSanitized ? 3 : 24));
+INSTANTIATE_TEST_SUITE_P(Seeds, RandomRationalJobs, JobSeeds(3000, kSanitized ? 3 : CountOf(12, 24)));
 
 }  // namespace
 }  // namespace patchmill

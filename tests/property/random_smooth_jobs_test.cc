@@ -12,7 +12,7 @@ TEST_P(RandomSmoothJobs, KeepThePromises) {
   const auto seed = static_cast<std::uint64_t>(GetParam());
   ExpectPromisesKept(DrawJob(seed, /*folds=*/false, /*rational=*/false), seed);
 }
-INSTANTIATE_TEST_SUITE_P(Seeds, RandomSmoothJobs, JobSeeds(1000, kSanitized ? 3 : 24));
+INSTANTIATE_TEST_SUITE_P(Seeds, RandomSmoothJobs, JobSeeds(1000, kSanitized ? 3 : CountOf(12, 24)));
 
 }  // namespace
 }  // namespace patchmill
