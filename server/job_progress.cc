@@ -8,7 +8,7 @@ namespace patchmill {
 namespace {
 
 // First words of the names of steps. "location" and "bounds" occur in several stages.
-constexpr std::array<std::pair<std::string_view, v1::JobStage>, 21> kStages = {{
+constexpr std::array<std::pair<std::string_view, v1::JobStage>, 22> kStages = {{
     {"model", v1::JOB_STAGE_MODEL},
     {"import", v1::JOB_STAGE_MODEL},
     {"trim", v1::JOB_STAGE_MODEL},
@@ -29,6 +29,7 @@ constexpr std::array<std::pair<std::string_view, v1::JobStage>, 21> kStages = {{
     {"triangles", v1::JOB_STAGE_DRAWING},
     {"leftover at vertices", v1::JOB_STAGE_DRAWING},
     {"flow lines", v1::JOB_STAGE_DRAWING},
+    {"crossings", v1::JOB_STAGE_DRAWING},
     {"reach", v1::JOB_STAGE_REGIONS},
 }};
 
