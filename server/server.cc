@@ -62,7 +62,7 @@ void LogCertificate(const TlsFiles& files) {
                   absl::FormatTime(absl::RFC3339_sec, absl::FromChrono(files.until), absl::UTCTimeZone())));
 }
 
-// What a server is made of, beside its options.
+// The parts of a server that are made before it starts.
 struct ServerParts {
   std::unique_ptr<Listener> listener;  // null: the server serves its own process only
   std::shared_ptr<TlsState> tls;       // null: no TLS
@@ -302,7 +302,7 @@ void ForbidCoreDumps() {
   prctl(PR_SET_DUMPABLE, 0);  // for systems whose cores go to a program, which ignores the limit
 }
 
-// What gRPC writes about handshakes of TLS, in words.
+// The cause of a failed handshake, in plain words, from gRPC's message about it.
 std::string HandshakeFault(std::string_view text) {
   const std::pair<const char*, const char*> faults[] = {
       {"peer did not return a certificate", "the client showed no certificate"},

@@ -49,7 +49,7 @@ class StockSolid {
   // True if a place of a rectangle in plan comes nearer to the solid in plan than `distance`, as exactly as
   // above. a and b are opposite corners of the rectangle, whose sides run along x and y.
   bool RectangleComesNearer(const Vec2& a, const Vec2& b, double distance) const;
-  // The same for such a rectangle at the height z: the distance is that in space.
+  // True if a place of a level rectangle at the height z comes nearer to the solid in space than `distance`.
   bool RectangleComesNearer(const Vec2& a, const Vec2& b, double z, double distance) const;
   // A height (mm) above which nothing of the solid is within `distance` in plan of such a rectangle;
   // -infinity: nothing of it is there.

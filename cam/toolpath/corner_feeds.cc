@@ -37,7 +37,7 @@ class Pass {
   }
 
   double length() const { return along_.back(); }
-  // Where the move ends, mm along the pass.
+  // The end of a move, mm along the pass.
   double EndOf(std::size_t move) const { return along_[move - first_ + 1]; }
 
   std::vector<Turn> InnerTurns() const {
@@ -83,9 +83,10 @@ class Pass {
   std::vector<double> along_;  // mm, of the start and of the ends of moves
 };
 
-// The feed where the turns within the window sum up to `turn` (rad).
-double FeedAt(double turn, double radius, const CornerFeedParams& params) {
-  const double share = 1.0 / (1.0 + radius * turn / (2.0 * kWindow * radius));
+// The feed where the turns within the window sum up to `turn` (rad). The window is 2 kWindow ball radii long,
+// so R k of the header is turn / (2 kWindow).
+double FeedAt(double turn, const CornerFeedParams& params) {
+  const double share = 1.0 / (1.0 + turn / (2.0 * kWindow));
   const double steps = std::round(kFeedSteps * share);
   return steps >= kFeedSteps ? params.feed : std::max(params.least, params.feed * steps / kFeedSteps);
 }
@@ -110,12 +111,12 @@ std::vector<FeedStretch> FeedsAlong(const Pass& pass, double radius, const Corne
     const double at = enters ? turns[entered].at - window : turns[left].at + window;
     const double before = stretches.empty() ? 0.0 : stretches.back().end;
     const double end = std::clamp(at, 0.0, pass.length());
-    if (end > before + kSamePlace) Append(end, FeedAt(turn, radius, params), stretches);
+    if (end > before + kSamePlace) Append(end, FeedAt(turn, params), stretches);
     turn += enters ? turns[entered++].angle : -turns[left++].angle;
     if (entered == left) turn = 0.0;  // no rounding is carried along
   }
   if (stretches.empty() || stretches.back().end < pass.length())
-    Append(pass.length(), FeedAt(0.0, radius, params), stretches);
+    Append(pass.length(), FeedAt(0.0, params), stretches);
   return stretches;
 }
 

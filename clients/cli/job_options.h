@@ -86,7 +86,7 @@ absl::StatusOr<v1::Setup> MakeSetup(const SetupOptions& options, const std::stri
 // The bytes of a model file, its format and how it is read. The ending of the path gives the text formats.
 // The server distinguishes JSON from protobuf by content.
 absl::StatusOr<v1::ModelSource> ReadModelFile(const std::string& path, const ReadingOptions& options);
-// The same of the part: faults of its patches name this file.
+// Reads the file of the part. Messages about its content name this file.
 absl::StatusOr<v1::ModelSource> ReadModel(const std::string& path, const ReadingOptions& options = {});
 
 }  // namespace patchmill::cli

@@ -132,8 +132,8 @@ class GraphMaker {
     }
     for (std::size_t c = 0; c < stops.size(); ++c) {
       const auto& list = stops[c];
-      // Of the stops of one node next to each other the first ends the stretch before, the last begins the
-      // next.
+      // A run of neighbouring stops may belong to one node. Its first stop ends the stretch before the node,
+      // and its last stop begins the stretch behind it.
       for (std::size_t k = 0; k + 1 < list.size(); ++k) {
         const int start = node[At(list[k].item)], end = node[At(list[k + 1].item)];
         if (start == end && LengthBetween(curves_[c].chain, list[k].t, list[k + 1].t) <= 3 * tolerance_)
@@ -255,7 +255,7 @@ class GraphMaker {
         graph_.edges, [&](const GraphEdge& e) { return std::minmax(e.start, e.end) == std::minmax(a, b); });
   }
 
-  // Where only two edges meet and go on smoothly, they are one.
+  // Joins two edges that meet alone at a node and continue each other smoothly.
   void JoinParts() {
     for (int n = 0; n < static_cast<int>(graph_.nodes.size()); ++n) {
       if (graph_.ends[At(n)].size() != 2) continue;

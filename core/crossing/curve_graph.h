@@ -10,10 +10,10 @@
 
 namespace patchmill {
 
-// What becomes of the end of a curve beyond its last meeting.
+// How the piece of a curve beyond its last meeting is treated.
 enum class FreeEnds {
-  kTrim,    // it is cut off, with a finding
-  kRefuse,  // it is an error
+  kTrim,    // the piece is cut off, with a finding
+  kRefuse,  // the piece is an error
 };
 
 struct GraphNode {

@@ -59,7 +59,7 @@ bool Flatten(int curve, const BezierChain& chain, double flatness, std::vector<F
 }
 
 double PieceDistance(const FlatPiece& p, const FlatPiece& q) {
-  // Of two segments: at an end of one of them, or where both lines are nearest.
+  // Two segments are nearest at an end of one of them, or where their lines are nearest.
   double best = std::min({SegmentDistance(p.a, q.a, q.b), SegmentDistance(p.b, q.a, q.b),
                           SegmentDistance(q.a, p.a, p.b), SegmentDistance(q.b, p.a, p.b)});
   const Vec3 u = p.b - p.a, v = q.b - q.a, w = p.a - q.a;

@@ -1,4 +1,4 @@
-// Where curves in space meet within a tolerance [crossing, section 1].
+// Finds the places at which curves in space meet within a tolerance [crossing, section 1].
 #pragma once
 
 #include <vector>

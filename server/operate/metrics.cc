@@ -30,7 +30,7 @@ using prometheus::Histogram;
 using prometheus::MetricFamily;
 using prometheus::MetricType;
 
-// What is read from the server when somebody asks.
+// Figures that are read from the server at each request for them.
 class Snapshot final : public prometheus::Collectable {
  public:
   explicit Snapshot(std::function<ServerFigures()> figures) : figures_(std::move(figures)) {}

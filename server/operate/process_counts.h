@@ -1,4 +1,4 @@
-// What is counted where no call is at hand.
+// Counts of the whole process, for places that belong to no call.
 #pragma once
 
 #include <atomic>
