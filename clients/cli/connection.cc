@@ -117,11 +117,12 @@ absl::StatusOr<std::shared_ptr<grpc::ChannelCredentials>> Credentials(const Comm
   return grpc::SslCredentials(ssl);
 }
 
-// Whether an address stays on this machine.
+// Whether an address stays on this machine. A name that only begins like such an address does not.
 bool IsLoopback(const std::string& address) {
-  if (absl::StartsWith(address, "unix")) return true;
+  if (absl::StartsWith(address, "unix:") || absl::StartsWith(address, "unix-abstract:")) return true;
   const std::string host = address.substr(0, address.rfind(':'));
-  return absl::StartsWith(host, "127.") || host == "localhost" || host == "[::1]";
+  const bool is_number = host.find_first_not_of("0123456789.") == host.npos;
+  return (is_number && absl::StartsWith(host, "127.")) || host == "localhost" || host == "[::1]";
 }
 
 }  // namespace

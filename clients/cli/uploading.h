@@ -1,23 +1,32 @@
-// Requests whose model may be too large for one message.
+// Requests whose models may be too large for one message.
 #pragma once
 
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "clients/cli/connection.h"
 #include "patchmill/v1/model.pb.h"
 
 namespace patchmill::cli {
 
-// The model of a request, if it has one.
+// The models of a request: that of the part, and that of its stock.
 template <class Request>
-v1::ModelSource* SourceOf(Request& request) {
-  if constexpr (requires { request.mutable_job()->mutable_source(); }) {
-    return request.mutable_job()->mutable_source();
-  } else if constexpr (requires { request.mutable_source(); }) {
-    return request.mutable_source();
+std::vector<v1::ModelSource*> ModelsOf(Request& request) {
+  std::vector<v1::ModelSource*> models;
+  const auto add = [&models](auto& from) {
+    if constexpr (requires { from.mutable_source(); }) models.push_back(from.mutable_source());
+    if constexpr (requires { from.mutable_setup()->mutable_stock(); }) {
+      if (from.setup().stock().has_model())
+        models.push_back(from.mutable_setup()->mutable_stock()->mutable_model());
+    }
+  };
+  if constexpr (requires { request.mutable_job(); }) {
+    add(*request.mutable_job());
   } else {
-    return nullptr;
+    add(request);
   }
+  return models;
 }
 
 // Sends a model in pieces (ModelService.UploadModel), and returns its digest. INVALID_ARGUMENT if it cannot
@@ -29,10 +38,16 @@ absl::StatusOr<std::string> Upload(const CommonOptions& options, InterruptWatch&
 // the upload.
 bool LacksModel(const grpc::Status& status);
 
+// A model that is sent in pieces, and its place in the request.
+struct LargeModel {
+  v1::ModelSource* source = nullptr;
+  v1::ModelFile file;
+};
+
 // Connects to the service and calls `send(connection)`, which makes the call. If the request is too large for
-// one message, its model is uploaded first and the request names it by its digest; again, up to three times,
-// where the server lacks it. INVALID_ARGUMENT if the request is too large even then. Any error of the server
-// is worded for a user.
+// one message, its models are uploaded first and the request names them by their digests. Where the server
+// lacks one, all are uploaded again, up to three times in all. INVALID_ARGUMENT if the request is too large
+// even then. Any error of the server is worded for a user.
 template <class Request, class Send>
 absl::Status SendRequest(const CommonOptions& options, InterruptWatch& watch, Request& request,
                          const Send& send) {
@@ -40,19 +55,20 @@ absl::Status SendRequest(const CommonOptions& options, InterruptWatch& watch, Re
   const bool fits = FitsMessage(request.ByteSizeLong());
   const absl::StatusOr<Connection> connection = Connect(options, fits ? KeepModels::kNo : KeepModels::kYes);
   if (!connection.ok()) return connection.status();
-  v1::ModelSource* source = fits ? nullptr : SourceOf(request);
-  v1::ModelFile file;
-  if (source != nullptr && source->has_file()) file = std::move(*source->mutable_file());
+  std::vector<LargeModel> large;
+  if (!fits) {
+    for (v1::ModelSource* source : ModelsOf(request))
+      if (source->has_file()) large.push_back({source, std::move(*source->mutable_file())});
+  }
   for (int upload = 1;; ++upload) {
-    const bool is_large = source != nullptr && !file.content().empty();
-    if (is_large) {
-      absl::StatusOr<std::string> digest = Upload(options, watch, *connection, file);
+    for (const LargeModel& model : large) {
+      absl::StatusOr<std::string> digest = Upload(options, watch, *connection, model.file);
       if (!digest.ok()) return digest.status();
-      source->set_model_sha256(*std::move(digest));
+      model.source->set_model_sha256(*std::move(digest));
     }
     if (absl::Status small = CheckRequestSize(request.ByteSizeLong()); !small.ok()) return small;
     const grpc::Status status = send(*connection);
-    if (!is_large || upload == kUploads || !LacksModel(status)) return FromGrpc(status, options, watch);
+    if (large.empty() || upload == kUploads || !LacksModel(status)) return FromGrpc(status, options, watch);
   }
 }
 

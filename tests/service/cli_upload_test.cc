@@ -4,6 +4,7 @@
 #include <string>
 
 #include <gmock/gmock.h>
+#include <google/protobuf/util/json_util.h>
 #include <grpcpp/grpcpp.h>
 #include <gtest/gtest.h>
 
@@ -11,6 +12,7 @@
 #include "server/errors.h"
 #include "tests/service/daemon.h"
 #include "tests/service/patchmill.h"
+#include "tests/service/requests.h"
 #include "tests/support/files.h"
 
 namespace patchmill {
@@ -53,6 +55,25 @@ TEST(CliUpload, ALargeFileGivesTheBytesOfTheSmallOne) {
     EXPECT_EQ(checked.status, 0) << checked.err;
     EXPECT_EQ(checked.out, Patchmill({"check", small / "mouse.json"}).out) << remote;
   }
+}
+
+// The model of the stock is sent in pieces, too.
+TEST(CliUpload, ALargeStockGivesTheBytesOfTheSmallOne) {
+  std::string stock;
+  ASSERT_TRUE(google::protobuf::util::MessageToJsonString(testing::Bump(12.0, 2.5), &stock).ok());
+  const TempDir folder;
+  const std::string part = folder.Write("bump.pb", testing::Bump().SerializeAsString());
+  const std::string small = folder.Write("small.json", stock);
+  const std::string large = folder.Write("large.json", stock + kBlanks);
+  std::string program;
+  for (const std::string& file : {small, large}) {
+    const Finished finished =
+        Patchmill({"mill", part, "-o", folder / "out.ngc", "--scallop", "0.05", "--tolerance", "0.02",
+                   "--floor", "-1", "--accept-depth", "2", "--stock", "model:" + file});
+    ASSERT_EQ(finished.status, 0) << finished.err;
+    if (file == small) program = Slurp(folder / "out.ngc");
+  }
+  EXPECT_EQ(Slurp(folder / "out.ngc"), program);
 }
 
 TEST(CliUpload, ALargeFileThatIsWrongSaysWhatIsWrong) {
