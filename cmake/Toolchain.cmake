@@ -20,10 +20,26 @@ if(PATCHMILL_WERROR)
 endif()
 include_directories(${CMAKE_SOURCE_DIR})
 
+# What a program exposed to strangers is built with: addresses that nobody can guess (PIE), tables of addresses that are
+# read-only before main() runs (RELRO, BIND_NOW), checked stacks and checked calls of libc, indirect jumps that land on
+# marked instructions only. tests/operations/hardening.sh reads each of these from the finished programs.
+include(CheckPIESupported)
+check_pie_supported()
+add_compile_options(-fstack-protector-strong)
+if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
+  add_compile_options(-fcf-protection=full)
+elseif(CMAKE_SYSTEM_PROCESSOR MATCHES "aarch64|arm64")
+  add_compile_options(-mbranch-protection=standard)
+endif()
+add_link_options(-Wl,-z,relro -Wl,-z,now -Wl,-z,noexecstack)
+
 set(PATCHMILL_SANITIZE "" CACHE STRING "Sanitizers, comma separated (address,undefined or thread)")
 if(PATCHMILL_SANITIZE)
   add_compile_options(-fsanitize=${PATCHMILL_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
   add_link_options(-fsanitize=${PATCHMILL_SANITIZE})
+elseif(NOT CMAKE_BUILD_TYPE STREQUAL "Debug")
+  # The checked calls need an optimizing compiler, and the sanitizers have checks of their own.
+  add_compile_options(-U_FORTIFY_SOURCE -D_FORTIFY_SOURCE=2)
 endif()
 
 find_program(CCACHE ccache)
