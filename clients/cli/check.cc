@@ -22,6 +22,7 @@ struct CheckOptions {
   double tool_diameter = 6.0;
   int continuity = 0;
   bool all_findings = false;
+  bool no_crossings = false;
 };
 
 // A line for each axis of the model that could point up.
@@ -87,6 +88,7 @@ absl::Status Run(const CheckOptions& options, InterruptWatch& watch) {
   request.mutable_tool()->mutable_ball_end()->set_diameter_mm(options.tool_diameter);
   request.set_max_threads(options.common.threads);
   request.set_continuity_steps(options.continuity);
+  request.set_with_crossings(!options.no_crossings);
   absl::StatusOr<v1::CheckModelResponse> response =
       Call(options.common, watch, &v1::ModelService::Stub::CheckModel, request);
   if (!response.ok()) return response.status();
@@ -109,6 +111,7 @@ Command AddCheck(CLI::App& app) {
       ->check(CLI::Range(0, 10000));
   app.add_flag("--all-findings", options->all_findings,
                "list every finding, not just the first few of each code");
+  app.add_flag("--no-crossings", options->no_crossings, "do not look for patches that cross each other");
   AddReadingOptions(app, options->reading);
   AddSetupOptions(app, options->setup);
   AddCommonOptions(app, options->common);

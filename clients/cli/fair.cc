@@ -71,6 +71,37 @@ absl::Status Run(const FairOptions& options, InterruptWatch& watch) {
   return absl::OkStatus();
 }
 
+// Several files: sections of a skin, each faired by itself.
+absl::Status RunSections(FairOptions options, InterruptWatch& watch) {
+  OutputFile output(options.output, {".json"});
+  if (options.net > 0 || !options.polyline.empty() || !options.preview.empty()) {
+    return absl::InvalidArgumentError("--net, --polyline and --preview are for one file of points");
+  }
+  std::vector<v1::FairCurveRequest> requests;
+  for (const std::string& file : options.files) {
+    options.points = file;
+    absl::StatusOr<v1::FairCurveRequest> request = MakeFairRequest(options);
+    if (!request.ok()) return request.status();
+    requests.push_back(*std::move(request));
+  }
+  if (const absl::Status writable = CheckWritable({&output}); !writable.ok()) return writable;
+  v1::BuildModelRequest outline;
+  outline.set_length_unit(v1::LENGTH_UNIT_MILLIMETER);
+  for (std::size_t k = 0; k < requests.size(); ++k) {
+    absl::StatusOr<v1::FairCurveResponse> response =
+        Call(options.common, watch, &v1::ModelService::Stub::FairCurve, requests[k]);
+    if (!response.ok()) return response.status();
+    v1::OutlineCurve& curve = *outline.mutable_sections()->add_curves();
+    curve.set_id(WireText(options.files[k], 200));
+    *curve.mutable_bspline() = response->curve();
+    if (options.common.quiet) continue;
+    options.output = options.files[k];
+    PrintSummary(options, *response);
+  }
+  output.Set(Json(outline));
+  return Commit({&output});
+}
+
 absl::Status RunNet(const FairOptions& options, InterruptWatch& watch) {
   OutputFile output(options.output, {".csv", ".dat", ".json"});
   absl::StatusOr<v1::FairNetRequest> request = MakeFairNetRequest(options);
@@ -92,6 +123,8 @@ Command AddFair(CLI::App& app) {
   AddFairOptions(app, *options);
   AddCommonOptions(app, options->common);
   return [options](InterruptWatch& watch) {
+    if (options->files.size() > 1) return RunSections(*options, watch);
+    options->points = options->files[0];
     return options->net > 0 ? RunNet(*options, watch) : Run(*options, watch);
   };
 }

@@ -112,11 +112,14 @@ std::string Ending(const std::string& path) {
 }  // namespace
 
 void AddFairOptions(CLI::App& app, FairOptions& options) {
-  app.add_option("POINTS", options.points,
-                 "measured points: .csv (commas) or .dat (blanks), one point of two or three numbers a line")
+  app.add_option(
+         "POINTS", options.files,
+         "measured points: .csv (commas) or .dat (blanks), one point of two or three numbers a line. Several "
+         "files are sections,\n"
+         "each faired by itself: OUTPUT.json is then an outline for the command build")
       ->required();
   app.add_option("-o,--output", options.output,
-                 "the faired points: .csv, .dat, or .json with energies and curvatures")
+                 "the faired points: .csv, .dat, or .json with the curve, energies and curvatures")
       ->required();
   app.add_option(
          "--band", options.band,

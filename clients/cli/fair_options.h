@@ -14,7 +14,9 @@ namespace patchmill::cli {
 
 struct FairOptions {
   CommonOptions common;
-  std::string points, output, polyline, preview;
+  std::vector<std::string> files;  // as given; several are sections, each faired by itself
+  std::string points;              // the one that is faired
+  std::string output, polyline, preview;
   std::string axes = "xyz", band = "0.2%", band_rule = "least", stop = "signs";
   std::vector<std::string> locks;
   std::string start_direction, end_direction;

@@ -1,4 +1,5 @@
 #include <filesystem>
+#include <iterator>
 #include <map>
 #include <memory>
 
@@ -25,6 +26,7 @@ const std::map<std::string, v1::LineKind> kKinds = {
     {"slope-extremum", v1::LINE_KIND_SLOPE_EXTREMUM},
     {"flow", v1::LINE_KIND_FLOW},
     {"slope-flow", v1::LINE_KIND_SLOPE_FLOW},
+    {"intersection", v1::LINE_KIND_INTERSECTION},
 };
 
 struct LinesOptions {
@@ -83,15 +85,37 @@ void Print(const v1::TraceLinesResponse& response) {
   }
 }
 
+// One point a line: kind, level, number of the line, whether it is closed, x, y, z. Numbers have the
+// shortest form that reads back as the same value. A closed line does not repeat its first point.
+std::string Table(const v1::TraceLinesResponse& response) {
+  std::string text = "kind,level,line,closed,x,y,z\n";
+  int number = 0;
+  for (const v1::LineSet& set : response.sets()) {
+    for (const v1::SurfaceLine& line : set.lines()) {
+      ++number;
+      for (int i = 0; i + 2 < line.points_mm_size(); i += 3) {
+        fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{},{}\n", Short(set.kind()), set.level(),
+                       number, line.closed() ? 1 : 0, line.points_mm(i), line.points_mm(i + 1),
+                       line.points_mm(i + 2));
+      }
+    }
+  }
+  return text;
+}
+
 absl::Status Run(const LinesOptions& options, InterruptWatch& watch) {
-  OutputFile output(options.output, {".json", ".svg"});
+  OutputFile output(options.output, {".json", ".svg", ".csv"});
   absl::StatusOr<v1::TraceLinesRequest> request = MakeRequest(options, output.EndsIn(".svg"));
   if (!request.ok()) return request.status();
   if (const absl::Status writable = CheckWritable({&output}); !writable.ok()) return writable;
   absl::StatusOr<v1::TraceLinesResponse> response =
       Call(options.common, watch, &v1::AnalysisService::Stub::TraceLines, *request);
   if (!response.ok()) return response.status();
-  output.Set(output.EndsIn(".svg") ? response->picture().data() : Json(*response));
+  if (output.EndsIn(".csv")) {
+    output.Set(Table(*response));
+  } else {
+    output.Set(output.EndsIn(".svg") ? response->picture().data() : Json(*response));
+  }
   if (const absl::Status written = Commit({&output}); !written.ok()) return written;
   if (!options.common.quiet) Print(*response);
   return absl::OkStatus();
@@ -106,7 +130,8 @@ void AddVector(CLI::App& app, const char* name, std::vector<double>& value, cons
 Command AddLines(CLI::App& app) {
   auto options = std::make_shared<LinesOptions>();
   app.add_option("MODEL", options->model, kModelHelp)->required();
-  app.add_option("-o,--output", options->output, "the lines: .json or .svg")->required();
+  app.add_option("-o,--output", options->output, "the lines: .json, .svg, or .csv with one point a line")
+      ->required();
   std::vector<std::string> names;
   for (const auto& [name, kind] : kKinds) names.push_back(name);
   app.add_option("--kind", options->kinds, "kinds of lines, separated by commas")

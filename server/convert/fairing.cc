@@ -162,6 +162,24 @@ void Add(const Vec3& p, Numbers* to) {
   for (const double x : p) to->Add(x);
 }
 
+// The curve of a beam as a cubic B-spline. Each inner knot counts three times, so that the points of the beam
+// are among the control points, to the bit.
+void FillCurve(const Beam& beam, v1::BsplineCurve* to) {
+  to->set_degree(3);
+  double knot = 0.0;
+  for (int k = 0; k < 4; ++k) to->add_knots(0.0);
+  Add(beam.points.front(), to->mutable_points());
+  for (std::size_t i = 0; i < beam.chords.size(); ++i) {
+    const double chord = beam.chords[i];
+    knot += chord;
+    Add(beam.points[i] + chord / 3.0 * beam.tangents[i], to->mutable_points());
+    Add(beam.points[i + 1] - chord / 3.0 * beam.tangents[i + 1], to->mutable_points());
+    Add(beam.points[i + 1], to->mutable_points());
+    const bool last = i + 1 == beam.chords.size();
+    for (int k = 0; k < (last ? 4 : 3); ++k) to->add_knots(knot);
+  }
+}
+
 }  // namespace
 
 absl::StatusOr<FairingOrder> FromProto(const v1::FairCurveRequest& request) {
@@ -255,6 +273,7 @@ absl::Status Fill(const FairingOrder& order, const FairedCurve& faired, v1::Fair
   response->mutable_energies()->Add(faired.energies.begin(), faired.energies.end());
   response->set_planar(order.planar);
   response->set_title(order.title);
+  FillCurve(faired.after, response->mutable_curve());
   return absl::OkStatus();
 }
 

@@ -113,6 +113,9 @@ LineOrder FromProto(const v1::LineFamily& proto, const std::string& at, FieldErr
       order.flow = flow;
       break;
     }
+    case v1::LINE_KIND_INTERSECTION:
+      order.crossings = true;
+      break;
     default:
       errors.Add(At(at, "kind"),
                  fmt::format("= {} is not known to this version", static_cast<int>(proto.kind())));
@@ -137,7 +140,7 @@ LineOrder FromProto(const v1::LineFamily& proto, const std::string& at, FieldErr
   return order;
 }
 
-bool HasLevels(const LineOrder& order) { return !order.flow && HasLevels(order.family); }
+bool HasLevels(const LineOrder& order) { return !order.flow && !order.crossings && HasLevels(order.family); }
 
 LineOrder Placed(LineOrder order, const Vec3& zero) {
   if (auto* eye = std::get_if<EyeSilhouetteLines>(&order.family)) eye->eye += zero;
@@ -175,6 +178,8 @@ std::string Describe(v1::LineKind kind, double wire_level) {
       return "flow";
     case v1::LINE_KIND_SLOPE_FLOW:
       return "flow of slopes";
+    case v1::LINE_KIND_INTERSECTION:
+      return "intersections";
     default:
       return "";
   }

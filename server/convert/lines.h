@@ -17,6 +17,7 @@ struct LineOrder {
   v1::LineKind kind = v1::LINE_KIND_UNSPECIFIED;
   LineFamily family;               // places in the program frame; not used for a flow
   std::optional<FlowParams> flow;  // a spacing of 0 is still to be chosen
+  bool crossings = false;          // of patches; neither family nor flow is used
   std::vector<double> levels;      // as given; program frame, rad
   int count = 12;                  // number of levels to choose when none are given
 };

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/base/status.h"
+#include "server/convert/curve_in_file.h"
 #include "server/errors.h"
 #include "server/limits.h"
 
@@ -18,6 +19,7 @@ class NetworkReader {
   CurveNetwork Read(const v1::CurveNetwork& proto) {
     CurveNetwork network;
     for (int i = 0; i < proto.vertices_size(); ++i) network.vertices.push_back(Vertex(proto.vertices(i), i));
+    vertices_ = &network.vertices;
     for (int i = 0; i < proto.edges_size(); ++i) network.edges.push_back(Edge(proto.edges(i), i));
     for (int i = 0; i < proto.faces_size(); ++i) network.faces.push_back(Face(proto.faces(i), i));
     for (int k = 0; k < proto.lines_size(); ++k) network.lines.push_back(Line(proto.lines(k), k));
@@ -133,6 +135,7 @@ class NetworkReader {
         return Led(from.led_through(), at + ".led_through");
       case v1::NetworkEdge::kHosaka:
         return Hosaka(from.hosaka(), at + ".hosaka");
+      case v1::NetworkEdge::kFile:  // read by Edge
       case v1::NetworkEdge::SHAPE_NOT_SET:
         break;
     }
@@ -207,7 +210,46 @@ class NetworkReader {
 
   NetworkEdge Edge(const v1::NetworkEdge& from, int index) {
     const std::string at = fmt::format("network.edges[{}]", index);
+    if (from.shape_case() == v1::NetworkEdge::kFile) {
+      return {Id(from.id(), at), from.start(), from.end(), InFile(from, at + ".file"), from.crease()};
+    }
     return {Id(from.id(), at), from.start(), from.end(), Shape(from, at), from.crease()};
+  }
+
+  // The curve of a file between the vertices of the edge, turned round and laid onto them as needed.
+  EdgeShape InFile(const v1::NetworkEdge& from, const std::string& at) {
+    absl::StatusOr<BezierChain> chain = CurveIn(from.file(), unit_);
+    if (!chain.ok()) {
+      Fault("UNSUPPORTED_CURVE", at, std::string(chain.status().message()));
+      return NormalsEdge{};
+    }
+    const int count = static_cast<int>(vertices_->size());
+    if (from.start() < 0 || from.start() >= count || from.end() < 0 || from.end() >= count)
+      return NormalsEdge{};
+    const Vec3& start = (*vertices_)[static_cast<std::size_t>(from.start())].position;
+    const Vec3& end = (*vertices_)[static_cast<std::size_t>(from.end())].position;
+    const Vec3 first = chain->points.front(), last = chain->points.back();
+    if ((first - end).norm() + (last - start).norm() < (first - start).norm() + (last - end).norm()) {
+      *chain = Reversed(*std::move(chain));
+    }
+    const Vec3 at_start = start - chain->points.front(), at_end = end - chain->points.back();
+    constexpr double kMostShare = 1e-3;
+    const double off = std::max(at_start.norm(), at_end.norm()), chord = (end - start).norm();
+    if (!(off <= kMostShare * chord)) {
+      Fault("UNSUPPORTED_CURVE", at,
+            fmt::format(
+                "has a curve whose ends lie {:.4g} mm from the vertices {} and {}; at most {:g} of their "
+                "distance {:.4g} mm",
+                off, from.start(), from.end(), kMostShare, chord));
+      return NormalsEdge{};
+    }
+    const std::vector<double> shares = ControlAbscissae(*chain);
+    for (std::size_t k = 0; k < shares.size(); ++k) {
+      chain->points[k] += (1.0 - shares[k]) * at_start + shares[k] * at_end;
+    }
+    chain->points.front() = start, chain->points.back() = end;
+    if (chain->spans() == 1) return CurveEdge{BezierCurve{chain->points}};
+    return CurveEdge{AsBspline(*chain)};
   }
 
   FacePush Push(const v1::FacePush& push) const { return {push.u(), push.v(), push.amount() / unit_}; }
@@ -263,6 +305,7 @@ class NetworkReader {
 
   static constexpr std::size_t kMaxEdgePoints = kMaxBrownDegree + 1;
   double unit_;
+  const std::vector<NetworkVertex>* vertices_ = nullptr;  // of the network that is read
   Diagnostics& faults_;
 };
 
@@ -294,7 +337,8 @@ absl::Status CheckNetworkLimits(const v1::CurveNetwork& proto) {
   for (const v1::NetworkEdge& edge : proto.edges()) {
     points +=
         (size(edge.bezier().points()) + size(edge.bspline().points()) + size(edge.hosaka().extra_terms())) /
-        3;
+            3 +
+        edge.file().content().size() / 4;
     knots += size(edge.bspline().knots());
     references += size(edge.controls());
   }

@@ -10,6 +10,7 @@
 #include "cam/plan/up_directions.h"
 #include "core/base/status.h"
 #include "core/joining/continuity.h"
+#include "core/lines/patch_crossings.h"
 #include "core/network/face_edges.h"
 #include "core/surface/face_figures.h"
 #include "server/convert/enums.h"
@@ -134,6 +135,11 @@ absl::Status HandleCheckModel(const Call& call, const v1::CheckModelRequest& req
           check.findings.push_back(UnitFinding(check.box, tool));
         } else if (std::optional<Diagnostic> huge = HugeModelFinding(check.box)) {
           check.findings.push_back(*std::move(huge));
+        }
+        if (request.with_crossings()) {
+          PM_ASSIGN_OR_RETURN(const Crossings3d crossings, FindPatchCrossings(surface, {}, run));
+          const Diagnostics crossing = CrossingFindings(surface, crossings);
+          check.findings.insert(check.findings.end(), crossing.begin(), crossing.end());
         }
         AddDiagnostics(check.findings, resolved.program_zero, response->mutable_diagnostics());
         *response->mutable_box() = ToProto(check.box, resolved.program_zero);

@@ -8,6 +8,7 @@
 #include "cam/plan/plan.h"
 #include "cam/plan/resolve.h"
 #include "core/base/status.h"
+#include "core/lines/patch_crossings.h"
 #include "server/convert/fields.h"
 #include "server/convert/lines.h"
 #include "server/convert/report.h"
@@ -90,6 +91,13 @@ absl::StatusOr<std::vector<Level>> Trace(const Surface& surface, const std::vect
   PointCount points;
   for (std::size_t k = 0; k < lines.size(); ++k) {
     const int family = static_cast<int>(k);
+    if (lines[k].crossings) {
+      PM_ASSIGN_OR_RETURN(Crossings3d crossings,
+                          FindPatchCrossings(surface, {.tolerance = order.tolerance}, run));
+      PM_RETURN_IF_ERROR(points.Add(crossings.curves));
+      levels.push_back({family, 0.0, std::move(crossings.curves)});
+      continue;
+    }
     if (lines[k].flow) {
       PM_ASSIGN_OR_RETURN(std::vector<ZeroCurve> flow,
                           TraceFlow(surface, *lines[k].flow, order.tolerance, run));

@@ -19,7 +19,8 @@ FUNCTIONS = {
 }
 # Fields whose arguments have other names.
 ARGUMENTS = {
-    "job": "operation", "source": "model", "sections": "outline", "boundary": "outline", "GenerateProgram.validate_only": "-",
+    "job": "operation", "source": "model", "sections": "outline", "boundary": "outline", "crossing": "outline",
+    "surface": "outline", "mesh": "outline", "GenerateProgram.validate_only": "-",
     "ListPosts.post_file": "-",  # milling.check_post takes it
     "FairCurve.points": "curve", "FairCurve.file": "curve", "FairNet.points": "net", "FairNet.file": "net",
     "UploadModel.start": "model", "UploadModel.chunk": "-", "ForgetModel.model_sha256": "model",

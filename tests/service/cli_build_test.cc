@@ -51,6 +51,61 @@ TEST(CliBuild, SaysWhatIsWrong) {
   EXPECT_THAT(out.Names(), UnorderedElementsAre("outline.json"));
 }
 
+// Four lines of the plane z = 1, each 2 longer than the square that they close.
+const char kStrokes[] =
+    "v 2\n-2 0 1\n12 0 1\nv 2\n-2 10 1\n12 10 1\nv 2\n0 -2 1\n0 12 1\nv 2\n10 -2 1\n10 12 1\n";
+
+TEST(CliBuild, MakesANetworkOfStrokesThatChecksAndEdits) {
+  const TempDir out;
+  out.Write("square.curves", kStrokes);
+  const Finished run =
+      Patchmill({"build", out / "square.curves", "-o", out / "net.json", "--tolerance", "0.01"});
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_THAT(run.err, HasSubstr("4 vertices, 4 edges, 1 faces"));
+  EXPECT_THAT(run.err, HasSubstr("CURVE_END_TRIMMED"));
+  const Finished check = Patchmill({"check", out / "net.json"});
+  EXPECT_EQ(check.status, 0) << check.err;
+  EXPECT_THAT(check.out, HasSubstr("X 0.000 Y 0.000 Z 1.000 to X 10.000 Y 10.000"));
+  EXPECT_EQ(
+      Patchmill({"edit", out / "net.json", "-o", out / "edited.json", "--push", "0,0.5,0.5,0.01"}).status, 0);
+  EXPECT_EQ(Patchmill({"build", out / "square.curves", "-o", out / "b.json", "--refuse-free-ends"}).status,
+            1);
+}
+
+TEST(CliBuild, DividesASkinAndASplineAndTakesAMesh) {
+  const TempDir out;
+  std::string outline = kOutline;
+  out.Write("outline.json", outline.substr(0, outline.find(",\n  \"network\"")) + "}");
+  const Finished run = Patchmill({"build", out / "outline.json", "--divide", "-o", out / "net.json"});
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_THAT(run.err, HasSubstr("2 faces"));
+  ASSERT_EQ(Patchmill({"build", out / "outline.json", "-o", out / "skin.json"}).status, 0);
+  EXPECT_EQ(Patchmill({"build", out / "skin.json", "--parts", "2,2", "-o", out / "again.json"}).status, 0);
+  out.Write("cage.obj", "v 0 0 0\nv 10 0 1\nv 10 10 0\nv 0 10 1\nf 1 2 3 4\n");
+  EXPECT_EQ(Patchmill({"build", out / "cage.obj", "-o", out / "cage.json"}).status, 0);
+  EXPECT_EQ(Patchmill({"check", out / "cage.json"}).status, 0);
+}
+
+TEST(CliBuild, FairedSectionsBecomeASkinByFile) {
+  const TempDir out;
+  std::vector<std::string> names;
+  for (int k = 0; k < 3; ++k) {
+    std::string points;
+    for (int i = 0; i <= 8; ++i)
+      points += fmt::format("{},{},{}\n", 5 * i, 20 * k, 0.1 * i * (8 - i) + 0.05 * (i % 2));
+    names.push_back(out / fmt::format("s{}.csv", k));
+    out.Write(fmt::format("s{}.csv", k), points);
+  }
+  const Finished fair = Patchmill({"fair", names[0], names[1], names[2], "-o", out / "sections.json"});
+  ASSERT_EQ(fair.status, 0) << fair.err;
+  const Finished build = Patchmill({"build", out / "sections.json", "--divide", "-o", out / "net.json"});
+  ASSERT_EQ(build.status, 0) << build.err;
+  ASSERT_EQ(Patchmill({"fair", names[1], "-o", out / "middle.json"}).status, 0);
+  out.Write("files.json", R"({"length_unit": "LENGTH_UNIT_MILLIMETER", "sections": {"curves": [
+    {"file": {"path": "s0.csv"}}, {"file": {"path": "middle.json"}}, {"file": {"path": "s2.csv"}}]}})");
+  EXPECT_EQ(Patchmill({"build", out / "files.json", "-o", out / "skin.json"}).status, 0);
+}
+
 TEST(CliFair, Nets) {
   const TempDir out;
   std::string points;

@@ -12,8 +12,8 @@ from numpy.typing import ArrayLike
 from ._call import RPCS, Call, Canceller, One
 from ._message import from_message, set_fields
 from .errors import OptionError
-from .messages import Axis, BandRule, BoundaryCurves, CurveFile, CurveNetwork, CurvePoints, FairingBand, FairingStop, LengthUnit
-from .messages import ModelEdit, PointLock, SectionCurves, Setup, Tool
+from .messages import Axis, BandRule, BoundaryCurves, BsplinePatch, ControlMesh, CrossingCurves, CurveFile, CurveNetwork, CurvePoints
+from .messages import FairingBand, FairingStop, LengthUnit, ModelEdit, PointLock, SectionCurves, Setup, SurfaceDivision, Tool
 from .milling import inline
 from .models import Model, ModelLike, model_of, set_source
 from .results import BuildResult, CheckResult, ConvertResult, EditResult, FairCurveResult, FairNetResult
@@ -23,7 +23,7 @@ Curve = ArrayLike | CurveFile | CurvePoints | str | os.PathLike[str]
 
 
 def check(model: ModelLike, *, setup: Setup | None = None, tool: Tool | None = None, continuity_steps: int = 0,
-          with_faces: bool = False, with_faces_picture: bool = False, max_threads: int = 0, cancel: Canceller | None = None,
+          with_faces: bool = False, with_faces_picture: bool = False, with_crossings: bool = False, max_threads: int = 0, cancel: Canceller | None = None,
           timeout_s: float | None = None) -> Call[CheckResult]:
     """Checks a model: its patches, how they meet, and its curvature against the tool. Findings are data, not
     errors.
@@ -32,12 +32,14 @@ def check(model: ModelLike, *, setup: Setup | None = None, tool: Tool | None = N
     continuity_steps: steps along each joint at which it is measured; 0: joints are not measured.
     with_faces: list the faces of the model.
     with_faces_picture: draw the faces, each with its id: `result.picture.data` is an SVG.
+    with_crossings: name patches and bodies that cross each other.
     """
     chosen = model_of(model)
 
     def make(m: Model) -> Any:
         return set_fields(set_source(model_service_pb2.CheckModelRequest(), m), setup=setup, tool=tool, continuity_steps=continuity_steps,
-                          with_faces=with_faces, with_faces_picture=with_faces_picture, max_threads=max_threads)
+                          with_faces=with_faces, with_faces_picture=with_faces_picture, with_crossings=with_crossings,
+                          max_threads=max_threads)
 
     return Call(RPCS["CheckModel"], make(chosen), lambda: One(lambda answer: from_message(CheckResult, answer)),
                 inline(chosen, make), cancel=cancel, timeout_s=timeout_s)
@@ -58,15 +60,20 @@ def convert(model: ModelLike, *, scale: float | None = None, max_threads: int = 
                 inline(chosen, make), cancel=cancel, timeout_s=timeout_s)
 
 
-def build(outline: SectionCurves | BoundaryCurves, *, length_unit: LengthUnit = LengthUnit.MILLIMETER, network: CurveNetwork | None = None,
+def build(outline: SectionCurves | BoundaryCurves | CrossingCurves | BsplinePatch | ControlMesh | None = None, *,
+          length_unit: LengthUnit = LengthUnit.MILLIMETER, network: CurveNetwork | None = None, division: SurfaceDivision | None = None,
           max_threads: int = 0, cancel: Canceller | None = None, timeout_s: float | None = None) -> Call[BuildResult]:
     """Makes a first surface from outline curves: a skin through sections, or a surface between four boundary
-    curves.
+    curves. Or makes a network from curves that cross, from a surface that it divides, or from a polygon mesh.
 
+    outline: what the model is made from. Without one the network is checked, and curves of files are put in their places.
     network: a network whose vertices without a normal take the normal of the surface.
+    division: the surface is divided into a network.
     """
-    fields = {"sections" if isinstance(outline, SectionCurves) else "boundary": outline}
-    request = set_fields(model_service_pb2.BuildModelRequest(), length_unit=length_unit, network=network, max_threads=max_threads, **fields)
+    names = {SectionCurves: "sections", BoundaryCurves: "boundary", CrossingCurves: "crossing", BsplinePatch: "surface", ControlMesh: "mesh"}
+    fields = {} if outline is None else {names[type(outline)]: outline}
+    request = set_fields(model_service_pb2.BuildModelRequest(), length_unit=length_unit, network=network, division=division,
+                         max_threads=max_threads, **fields)
     return Call(RPCS["BuildModel"], request, lambda: One(lambda answer: from_message(BuildResult, answer)), cancel=cancel,
                 timeout_s=timeout_s)
 
