@@ -7,6 +7,7 @@
 
 #include "clients/cli/call.h"
 #include "clients/cli/commands.h"
+#include "clients/cli/files_in_json.h"
 #include "clients/cli/input_file.h"
 #include "clients/cli/job_options.h"
 #include "clients/cli/model_file.h"
@@ -34,41 +35,6 @@ struct BuildOptions {
 std::string EndingOf(const std::string& path) {
   const std::string ending = absl::AsciiStrToLower(std::filesystem::path(path).extension().native());
   return ending.empty() ? ending : ending.substr(1);
-}
-
-absl::Status FillFile(const std::filesystem::path& folder, v1::CurveInFile* file) {
-  if (file->path().empty()) return absl::OkStatus();
-  if (!file->content().empty()) {
-    return absl::InvalidArgumentError(
-        fmt::format("file {}: has both a path and content; give one", file->path()));
-  }
-  const std::string path = (folder / std::filesystem::path(file->path())).string();
-  absl::StatusOr<std::string> bytes = ReadWholeFile(path);
-  if (!bytes.ok()) return bytes.status();
-  file->set_content(*std::move(bytes));
-  if (file->format().empty()) file->set_format(WireText(EndingOf(path), 20));
-  file->clear_path();
-  return absl::OkStatus();
-}
-
-// Reads the files that curves of outlines and edges of the network name, from the folder of the request.
-absl::Status FillFiles(const std::string& from, v1::BuildModelRequest& request) {
-  const std::filesystem::path folder = std::filesystem::path(from).parent_path();
-  for (auto* curves : {request.has_sections() ? request.mutable_sections()->mutable_curves() : nullptr,
-                       request.has_boundary() ? request.mutable_boundary()->mutable_curves() : nullptr,
-                       request.has_crossing() ? request.mutable_crossing()->mutable_curves() : nullptr}) {
-    if (!curves) continue;
-    for (v1::OutlineCurve& curve : *curves) {
-      if (!curve.has_file()) continue;
-      if (const absl::Status status = FillFile(folder, curve.mutable_file()); !status.ok()) return status;
-    }
-  }
-  if (!request.has_network()) return absl::OkStatus();
-  for (v1::NetworkEdge& edge : *request.mutable_network()->mutable_edges()) {
-    if (!edge.has_file()) continue;
-    if (const absl::Status status = FillFile(folder, edge.mutable_file()); !status.ok()) return status;
-  }
-  return absl::OkStatus();
 }
 
 // A model of one spline or Bezier patch is a surface to divide; a model with a network is that network.
@@ -100,16 +66,21 @@ absl::Status TakeModel(const v1::PatchModel& model, const std::string& input,
 }
 
 absl::Status ReadJson(const std::string& input, v1::BuildModelRequest& request) {
-  absl::StatusOr<std::string> text = ReadWholeFile(input);
+  const absl::StatusOr<std::string> text = ReadWholeFile(input);
   if (!text.ok()) return text.status();
-  const absl::Status status = ReadJsonMessage(*text, request);
-  if (!status.ok()) {
-    v1::PatchModel model;
-    if (ReadJsonMessage(*text, model).ok()) return TakeModel(model, input, request);
-    return absl::InvalidArgumentError(
-        fmt::format("{}: not an outline in JSON: {}", input, std::string(status.message())));
+  const absl::StatusOr<std::string> json =
+      PutFilesIntoJson(*text, std::filesystem::path(input).parent_path());
+  if (!json.ok()) {
+    return absl::Status(json.status().code(),
+                        fmt::format("{}: {}", input, std::string(json.status().message())));
   }
-  return FillFiles(input, request);
+  const absl::Status status = ReadJsonMessage(*json, request);
+  if (status.ok()) return status;
+  request.Clear();
+  v1::PatchModel model;
+  if (ReadJsonMessage(*json, model).ok()) return TakeModel(model, input, request);
+  return absl::InvalidArgumentError(
+      fmt::format("{}: not an outline in JSON: {}", input, std::string(status.message())));
 }
 
 // Several files are sections of a skin, each with one curve.

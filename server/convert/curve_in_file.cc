@@ -18,7 +18,7 @@ BsplineCurve AsBspline(const BezierChain& chain) { return {chain.degree, ChainKn
 
 absl::StatusOr<BezierChain> CurveIn(const v1::CurveInFile& file, double unit) {
   if (file.content().empty()) {
-    return CurveFault("has no content; the command line reads a file by its path, a request sends its bytes");
+    return CurveFault("has no content; send the bytes of the file");
   }
   if (file.format() == "json") {
     v1::FairCurveResponse faired;

@@ -102,7 +102,7 @@ TEST(CliBuild, FairedSectionsBecomeASkinByFile) {
   ASSERT_EQ(build.status, 0) << build.err;
   ASSERT_EQ(Patchmill({"fair", names[1], "-o", out / "middle.json"}).status, 0);
   out.Write("files.json", R"({"length_unit": "LENGTH_UNIT_MILLIMETER", "sections": {"curves": [
-    {"file": {"path": "s0.csv"}}, {"file": {"path": "middle.json"}}, {"file": {"path": "s2.csv"}}]}})");
+    {"file": "s0.csv"}, {"file": "middle.json"}, {"file": "s2.csv"}]}})");
   EXPECT_EQ(Patchmill({"build", out / "files.json", "-o", out / "skin.json"}).status, 0);
 }
 
@@ -123,6 +123,47 @@ TEST(CliFair, Nets) {
       Patchmill({"fair", out / "net.csv", "--net", "5", "-o", out / "fair.csv", "--preview", out / "a.svg"})
           .err,
       HasSubstr("--preview is for curves"));
+}
+
+TEST(CliBuild, EdgesTakeTheirCurvesFromFiles) {
+  const TempDir out;
+  // The first edge of a square is an arch of nine points; the file runs from its end to its start.
+  std::string points;
+  for (int i = 8; i >= 0; --i) points += fmt::format("{},0,{}\n", 5 * i, 0.25 * i * (8 - i));
+  out.Write("arch.csv", points);
+  const std::string net = R"({"network": {"vertices": [{"position": [0, 0, 0]}, {"position": [40, 0, 0]},
+      {"position": [40, 40, 0]}, {"position": [0, 40, 0]}],
+    "edges": [{"id": "arch", "start": 0, "end": 1, "file": "arch.csv"}],
+    "faces": [{"vertices": [0, 1, 2, 3]}]}})";
+  out.Write("net.json", "{\"length_unit\": \"LENGTH_UNIT_MILLIMETER\", " + net.substr(1));
+  const Finished build = Patchmill({"build", out / "net.json", "-o", out / "made.json"});
+  ASSERT_EQ(build.status, 0) << build.err;
+  v1::PatchModel model;
+  ASSERT_TRUE(google::protobuf::util::JsonStringToMessage(Slurp(out / "made.json"), &model).ok());
+  const v1::NetworkEdge& edge = model.network().edges(0);
+  ASSERT_TRUE(edge.has_bspline());
+  const int last = edge.bspline().points_size() - 3;
+  EXPECT_EQ(edge.bspline().points(0), 0.0);  // turned round
+  EXPECT_EQ(edge.bspline().points(last), 40.0);
+  // A spline through points has them among its Bezier points.
+  bool passes = false;
+  for (int i = 0; i <= last; i += 3) {
+    passes |= std::abs(edge.bspline().points(i) - 20.0) < 1e-9 &&
+              std::abs(edge.bspline().points(i + 2) - 4.0) < 1e-9;
+  }
+  EXPECT_TRUE(passes);
+}
+
+TEST(CliBuild, NamesTheFileThatAnEdgeLacks) {
+  const TempDir out;
+  for (const auto& [name, part] :
+       {std::pair{"none.csv", "none.csv"}, {"curve.txt", "points end in .csv or .dat"}}) {
+    out.Write("files.json", fmt::format(R"({{"sections": {{"curves": [{{"file": "{}"}}]}}}})", name));
+    const Finished run = Patchmill({"build", out / "files.json", "-o", out / "a.json"});
+    EXPECT_NE(run.status, 0);
+    EXPECT_THAT(run.err, HasSubstr(part));
+    EXPECT_THAT(out.Names(), UnorderedElementsAre("files.json"));
+  }
 }
 
 }  // namespace
