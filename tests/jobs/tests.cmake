@@ -24,7 +24,7 @@ if(PATCHMILL_SERVICE AND NOT PATCHMILL_SANITIZE)
     set(page_of_pages docs/page.md)
   endif()
   foreach(page ${page_of_pages} README.md docs/curves.md docs/patches.md docs/networks.md docs/curvature.md docs/editing.md
-          docs/first_surfaces.md docs/fairing.md docs/evaluation.md docs/lines.md docs/regions.md docs/reach.md
+          docs/first_surfaces.md docs/strokes.md docs/sections_to_part.md docs/fairing.md docs/evaluation.md docs/lines.md docs/regions.md docs/reach.md
           docs/limits.md docs/commands.md)
     get_filename_component(name ${page} NAME_WE)
     add_test(NAME job_page_${name} COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/jobs/run_page.sh $<TARGET_FILE:patchmill>
