@@ -92,6 +92,22 @@ class Models(unittest.TestCase):
         middle = CLIENT.evaluate(built.model, [0], [[0.5, 0.5]]).points_mm[0]
         self.assertAlmostEqual(middle[2], 0.5 * (heights[1] + 4), places=6)
 
+    def test_build_a_network_of_curves_of_a_surface_and_of_a_mesh(self):
+        strokes = [pm.OutlineCurve(points=pm.PointList(points=[[a, -1, 2], [a, 11, 2]])) for a in (0, 10)]
+        strokes += [pm.OutlineCurve(points=pm.PointList(points=[[-1, a, 2], [11, a, 2]])) for a in (0, 10)]
+        square = CLIENT.build(pm.CrossingCurves(curves=strokes, tolerance_mm=0.01))
+        self.assertEqual(len(square.network_model.network.faces), 1)
+        self.assertEqual(sum(d.code == "CURVE_END_TRIMMED" for d in square.diagnostics), 8)
+        self.assertTrue(CLIENT.check(square.network_model).is_usable)
+        # A bilinear surface divided into 2 x 3 parts: its middle stays where it is.
+        points = [[0, 0, 0], [0, 10, 4], [10, 0, 4], [10, 10, 0]]
+        bilinear = pm.BsplinePatch(degree_u=1, degree_v=1, knots_u=[0, 0, 1, 1], knots_v=[0, 0, 1, 1], points=points)
+        divided = CLIENT.build(bilinear, division=pm.SurfaceDivision(parts_u=2, parts_v=3))
+        self.assertEqual(len(divided.network_model.network.faces), 6)
+        self.assertLess(divided.max_distance_mm, 1e-9)
+        cage = CLIENT.build(pm.ControlMesh(content=b"v 0 0 0\nv 10 0 1\nv 10 10 0\nv 0 10 1\nf 1 2 3 4\n"))
+        self.assertEqual(len(cage.network_model.network.vertices), 4)
+
     def test_a_post_file_is_checked(self):
         shop = next(p for p in CLIENT.posts() if p.name == "fanuc").post_file.replace("name = fanuc", "name = shop")
         good = CLIENT.check_post(shop)
