@@ -5,21 +5,11 @@
 #include <vector>
 
 #include "cam/verify/beyond_strategy.h"
+#include "core/base/draw.h"
 #include "core/base/parallel.h"
 #include "core/base/status.h"
 
 namespace patchmill {
-namespace {
-
-// A pseudo-random number in [0, 1), the same for the same n (SplitMix64 by Steele, Lea and Flood).
-double Draw(std::uint64_t n) {
-  std::uint64_t z = n * 0x9e3779b97f4a7c15ULL;
-  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
-  z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
-  return static_cast<double>((z ^ (z >> 31)) >> 11) * 0x1p-53;
-}
-
-}  // namespace
 
 absl::StatusOr<LeftoverSpread> MeasureSpread(const RootedSurface& rooted, const SegmentTree& tree,
                                              const LeftoverParams& params, const RunContext& run) {

@@ -3,6 +3,7 @@
 #include <map>
 #include <memory>
 
+#include <absl/strings/ascii.h>
 #include <fmt/format.h>
 
 #include "clients/cli/call.h"
@@ -94,9 +95,9 @@ std::string Table(const v1::TraceLinesResponse& response) {
     for (const v1::SurfaceLine& line : set.lines()) {
       ++number;
       for (int i = 0; i + 2 < line.points_mm_size(); i += 3) {
-        fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{},{}\n", Short(set.kind()), set.level(),
-                       number, line.closed() ? 1 : 0, line.points_mm(i), line.points_mm(i + 1),
-                       line.points_mm(i + 2));
+        fmt::format_to(std::back_inserter(text), "{},{},{},{},{},{},{}\n",
+                       absl::AsciiStrToLower(Short(set.kind())), set.level(), number, line.closed() ? 1 : 0,
+                       line.points_mm(i), line.points_mm(i + 1), line.points_mm(i + 2));
       }
     }
   }

@@ -10,6 +10,7 @@
 #include <Eigen/LU>
 #include <fmt/format.h>
 
+#include "core/base/draw.h"
 #include "core/base/index.h"
 #include "core/base/segment.h"
 #include "core/spatial/box_tree.h"
@@ -20,6 +21,16 @@ namespace {
 constexpr int kMostSteps = 96;                 // cells of a piece each way
 constexpr std::size_t kMostCells = 1'500'000;  // of the whole surface
 constexpr double kNewtonEnd = 1e-12;           // share of the surface's size
+
+// The search moves the points of the grids by this share of the surface's size, each in a direction of its own. So no
+// edge of a grid meets an edge or a corner of another one, as those of parts with straight walls and symmetries would.
+// The curves are refined on the surfaces themselves.
+constexpr double kShift = 1e-9;
+
+// A vector in [-1, 1]^3 for a point of the grids.
+Vec3 ShiftOf(std::size_t point) {
+  return {2 * Draw(3 * point + 1) - 1, 2 * Draw(3 * point + 2) - 1, 2 * Draw(3 * point + 3) - 1};
+}
 
 // A piece cut into cells of equal parameters; a cell is two triangles.
 struct PieceGrid {
@@ -119,7 +130,9 @@ class CrossingFinder {
       const PieceId piece{static_cast<int>(k)};
       for (int i = 0; i <= grid.nu; ++i) {
         for (int j = 0; j <= grid.nv; ++j) {
-          points_.push_back(Position(surface_.piece(piece), i / double(grid.nu), j / double(grid.nv)));
+          const Vec3 shift = kShift * surface_.scale * ShiftOf(points_.size());
+          points_.push_back(Position(surface_.piece(piece), i / double(grid.nu), j / double(grid.nv)) +
+                            shift);
           if (i < grid.nu && j < grid.nv) cells_.push_back({piece, i, j});
         }
       }
@@ -183,8 +196,7 @@ class CrossingFinder {
     return run_.Check();
   }
 
-  // The side of the plane of a triangle on which a point lies. A point on it counts as above: every edge then
-  // passes the plane or does not, whatever the rounding.
+  // The side of the plane of a triangle on which a point lies. A point on it counts as above.
   double SideOf(int point, const std::array<int, 3>& t) const {
     const Vec3 &a = points_[At(t[0])], n = (points_[At(t[1])] - a).cross(points_[At(t[2])] - a);
     return (points_[At(point)] - a).dot(n) < 0 ? -1.0 : 1.0;

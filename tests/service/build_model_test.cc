@@ -119,6 +119,7 @@ TEST(BuildModel, RefusesWithTheField) {
   refused(request, "sections.curves[2] is none: a curve of degree 7");
   request = FromJson(kSections);
   request.clear_outline();
+  request.clear_network();
   refused(request, "outline");
 }
 

@@ -11,8 +11,11 @@
 namespace patchmill {
 namespace {
 
+using ::testing::Contains;
+using ::testing::ContainsRegex;
 using testing::Finished;
 using ::testing::HasSubstr;
+using ::testing::Not;
 using testing::Patchmill;
 using testing::Slurp;
 using testing::TempDir;
@@ -65,7 +68,7 @@ TEST(CliBuild, MakesANetworkOfStrokesThatChecksAndEdits) {
   EXPECT_THAT(run.err, HasSubstr("CURVE_END_TRIMMED"));
   const Finished check = Patchmill({"check", out / "net.json"});
   EXPECT_EQ(check.status, 0) << check.err;
-  EXPECT_THAT(check.out, HasSubstr("X 0.000 Y 0.000 Z 1.000 to X 10.000 Y 10.000"));
+  EXPECT_THAT(check.out, ContainsRegex("X -?0.000 Y -?0.000 Z 1.000 to X 10.000 Y 10.000"));
   EXPECT_EQ(
       Patchmill({"edit", out / "net.json", "-o", out / "edited.json", "--push", "0,0.5,0.5,0.01"}).status, 0);
   EXPECT_EQ(Patchmill({"build", out / "square.curves", "-o", out / "b.json", "--refuse-free-ends"}).status,
@@ -158,11 +161,12 @@ TEST(CliBuild, NamesTheFileThatAnEdgeLacks) {
   const TempDir out;
   for (const auto& [name, part] :
        {std::pair{"none.csv", "none.csv"}, {"curve.txt", "points end in .csv or .dat"}}) {
+    if (std::string(name) == "curve.txt") out.Write(name, "0,0,0\n1,1,1\n");
     out.Write("files.json", fmt::format(R"({{"sections": {{"curves": [{{"file": "{}"}}]}}}})", name));
     const Finished run = Patchmill({"build", out / "files.json", "-o", out / "a.json"});
     EXPECT_NE(run.status, 0);
     EXPECT_THAT(run.err, HasSubstr(part));
-    EXPECT_THAT(out.Names(), UnorderedElementsAre("files.json"));
+    EXPECT_THAT(out.Names(), Not(Contains("a.json")));
   }
 }
 

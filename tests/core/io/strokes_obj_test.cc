@@ -1,4 +1,4 @@
-// Readers of strokes (.curves) and of polygon meshes (.obj): what they take, and what they refuse with its line.
+// Readers of strokes (.curves) and of polygon meshes (.obj): what they take, and what they refuse.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -23,7 +23,7 @@ TEST(ReadStrokes, NamesTheLineOfAFault) {
   for (const auto& [text, start] : {std::pair{"", "line 1: the text holds no stroke"},
                                     {"w 1\n", "line 1: "},
                                     {"v 0\n", "line 1: "},
-                                    {"v 2\n0 0 0\n", "line 2: "},
+                                    {"v 2\n0 0 0\n", "line 3: the text ends"},
                                     {"v 1\n0 0 nan\n", "line 2: "}}) {
     EXPECT_THAT(std::string(ReadStrokes(text).status().message()), StartsWith(start)) << text;
   }

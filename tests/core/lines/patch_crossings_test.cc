@@ -98,6 +98,23 @@ TEST(PatchCrossings, AWallThroughAFloorIsALineWithEnds) {
   EXPECT_THAT(findings[0].message, HasSubstr("patch 0 (floor) and patch 1 (wall) cross along 20 mm"));
 }
 
+// Parts with straight walls: edges of the search's cells meet edges and corners of the other patch's cells.
+TEST(PatchCrossings, WallsThatPassAlongLinesOfTheFloorAreFound) {
+  const Patch floor = Plane("floor", Vec3(0, 0, 0), Vec3(40, 0, 0), Vec3(0, 40, 0));
+  for (const double at : {5.0, 10.0, 20.0, 30.0}) {
+    for (const double low : {-4.0, -8.0, -2.0}) {
+      PatchModel model;
+      model.patches = {floor, Plane("wall", Vec3(at, 10, low), Vec3(0, 20, 0), Vec3(0, 0, 8.5))};
+      EXPECT_NEAR(Length(Found(Joined(model))), 20.0, 1e-6) << at << " " << low;
+      model.patches[1] = Plane("wall", Vec3(10, at, low), Vec3(0, 0, 8.5), Vec3(20, 0, 0));
+      EXPECT_NEAR(Length(Found(Joined(model))), 20.0, 1e-6) << at << " " << low;
+    }
+  }
+  PatchModel diagonal;
+  diagonal.patches = {floor, Plane("wall", Vec3(40, 0, -4), Vec3(-40, 40, 0), Vec3(0, 0, 8))};
+  EXPECT_NEAR(Length(Found(Joined(diagonal))), 40.0 * std::sqrt(2.0), 1e-6);
+}
+
 TEST(PatchCrossings, BodiesAreNamedOnce) {
   PatchModel model = Ball(Vec3::Zero(), 10);
   const std::size_t first = model.patches.size();

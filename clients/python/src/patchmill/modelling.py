@@ -23,8 +23,8 @@ Curve = ArrayLike | CurveFile | CurvePoints | str | os.PathLike[str]
 
 
 def check(model: ModelLike, *, setup: Setup | None = None, tool: Tool | None = None, continuity_steps: int = 0,
-          with_faces: bool = False, with_faces_picture: bool = False, with_crossings: bool = False, max_threads: int = 0, cancel: Canceller | None = None,
-          timeout_s: float | None = None) -> Call[CheckResult]:
+          with_faces: bool = False, with_faces_picture: bool = False, with_crossings: bool = False, max_threads: int = 0,
+          cancel: Canceller | None = None, timeout_s: float | None = None) -> Call[CheckResult]:
     """Checks a model: its patches, how they meet, and its curvature against the tool. Findings are data, not
     errors.
 
@@ -66,11 +66,13 @@ def build(outline: SectionCurves | BoundaryCurves | CrossingCurves | BsplinePatc
     """Makes a first surface from outline curves: a skin through sections, or a surface between four boundary
     curves. Or makes a network from curves that cross, from a surface that it divides, or from a polygon mesh.
 
-    outline: what the model is made from. Without one the network is checked, and curves of files are put in their places.
+    outline: what the model is made from. Without one the network is checked, and curves of files are put in their
+        places.
     network: a network whose vertices without a normal take the normal of the surface.
     division: the surface is divided into a network.
     """
-    names = {SectionCurves: "sections", BoundaryCurves: "boundary", CrossingCurves: "crossing", BsplinePatch: "surface", ControlMesh: "mesh"}
+    names = {SectionCurves: "sections", BoundaryCurves: "boundary", CrossingCurves: "crossing", BsplinePatch: "surface",
+             ControlMesh: "mesh"}
     fields = {} if outline is None else {names[type(outline)]: outline}
     request = set_fields(model_service_pb2.BuildModelRequest(), length_unit=length_unit, network=network, division=division,
                          max_threads=max_threads, **fields)
