@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <iterator>
 #include <memory>
 
@@ -98,6 +99,11 @@ absl::Status RunSections(FairOptions options, InterruptWatch& watch) {
     options.output = options.files[k];
     PrintSummary(options, *response);
   }
+  const auto& curves = outline.sections().curves();
+  const bool alike = std::ranges::all_of(curves, [&](const v1::OutlineCurve& curve) {
+    return curve.bspline().points_size() == curves[0].bspline().points_size();
+  });
+  if (alike) outline.mutable_sections()->set_common_knots(true);
   output.Set(Json(outline));
   return Commit({&output});
 }

@@ -1,10 +1,14 @@
 #include "server/convert/first_surface.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "core/base/error_details.h"
 #include "core/base/status.h"
+#include "core/curve/mean_breaks.h"
 #include "core/patch/outline_surface.h"
+#include "server/convert/curve_in_file.h"
 #include "server/convert/fields.h"
 #include "server/convert/outline_curves.h"
 #include "server/convert/patches.h"
@@ -36,6 +40,30 @@ absl::StatusOr<PatchShape> Between(const v1::BoundaryCurves& boundary, double un
   return Made(CoonsSurface(outline), "boundary.");
 }
 
+// Sections of measured points share their knots where they can.
+absl::StatusOr<std::vector<Curve>> SectionsOf(const v1::SectionCurves& from, double unit) {
+  PM_ASSIGN_OR_RETURN(std::vector<Curve> curves, CurvesOf(from.curves(), unit, "sections"));
+  const auto measured = [](const v1::OutlineCurve& c) { return c.has_points() || c.has_file(); };
+  const bool wish =
+      from.has_common_knots() ? from.common_knots() : std::ranges::all_of(from.curves(), measured);
+  if (!wish) return curves;
+  std::vector<BezierChain> chains;
+  for (const Curve& curve : curves) {
+    absl::StatusOr<BezierChain> chain = ChainOf(curve);
+    if (!chain.ok()) return curves;  // SkinSurface names it
+    chains.push_back(*std::move(chain));
+  }
+  const absl::StatusOr<std::vector<BezierChain>> common = WithMeanBreaks(chains);
+  if (!common.ok()) {
+    if (!from.has_common_knots()) return curves;
+    return FieldError("sections.common_knots",
+                      fmt::format("is true, and {}; give each section as many points",
+                                  std::string(common.status().message())));
+  }
+  for (std::size_t k = 0; k < curves.size(); ++k) curves[k] = AsBspline((*common)[k]);
+  return curves;
+}
+
 absl::StatusOr<PatchShape> FromSurface(const v1::BsplinePatch& surface, double unit) {
   const std::size_t knots = static_cast<std::size_t>(surface.knots_u_size() + surface.knots_v_size());
   const std::size_t points = static_cast<std::size_t>(surface.points_size()) / 3;
@@ -60,8 +88,7 @@ absl::StatusOr<PatchShape> FromSurface(const v1::BsplinePatch& surface, double u
 absl::StatusOr<PatchShape> OutlineSurface(const v1::BuildModelRequest& request, double unit) {
   switch (request.outline_case()) {
     case v1::BuildModelRequest::kSections: {
-      PM_ASSIGN_OR_RETURN(const std::vector<Curve> sections,
-                          CurvesOf(request.sections().curves(), unit, "sections"));
+      PM_ASSIGN_OR_RETURN(const std::vector<Curve> sections, SectionsOf(request.sections(), unit));
       return Made(SkinSurface(sections), "sections.");
     }
     case v1::BuildModelRequest::kBoundary:
