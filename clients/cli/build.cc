@@ -25,7 +25,7 @@ struct BuildOptions {
   CommonOptions common;
   std::vector<std::string> inputs;
   std::string output, network, length_unit;
-  bool divide = false;
+  bool divide = false, fewest = false;
   std::vector<int> parts;
   std::optional<double> tolerance, crease_angle;
   std::vector<double> direction;
@@ -116,9 +116,12 @@ absl::Status SetOptions(const BuildOptions& options, v1::BuildModelRequest& requ
     return absl::InvalidArgumentError(fmt::format("{} belongs to {}", option, what));
   };
   const bool surface = request.has_sections() || request.has_boundary() || request.has_surface();
-  if ((options.divide || !options.parts.empty()) && !surface)
-    return needs("--divide", "sections, boundaries and surfaces");
-  if (options.divide || !options.parts.empty()) request.mutable_division();
+  const bool divide = options.divide || options.fewest || !options.parts.empty();
+  if (divide && !surface) {
+    return needs("a division (--divide, --fewest-faces, --parts)", "sections, boundaries and surfaces");
+  }
+  if (divide) request.mutable_division();
+  if (options.fewest) request.mutable_division()->set_lines(v1::DIVISION_LINES_FEWEST);
   if (!options.parts.empty()) {
     request.mutable_division()->set_parts_u(options.parts[0]);
     request.mutable_division()->set_parts_v(options.parts[1]);
@@ -227,6 +230,8 @@ Command AddBuild(CLI::App& app) {
                  "write the network of OUTLINE with normals of the surface: .json or .pb");
   app.add_flag("--divide", options->divide,
                "divide the surface into a network, with a face between its knots");
+  app.add_flag("--fewest-faces", options->fewest,
+               "divide the surface into as few faces as keep --tolerance; they need not end at knots");
   app.add_option("--parts", options->parts,
                  "U,V: divide each rectangle between knots into this many parts at least, 1 to 64")
       ->delimiter(',')

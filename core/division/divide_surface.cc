@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <numeric>
 
 #include <fmt/format.h>
 
@@ -17,8 +18,9 @@
 namespace patchmill {
 namespace {
 
-constexpr double kSamePlace = 1e-10;  // share of the size: nearer points are one
-constexpr double kSameNormal = 1e-8;  // rad; joining admits 1e-7
+constexpr double kSamePlace = 1e-10;      // share of the size: nearer points are one
+constexpr double kSameNormal = 1e-8;      // rad; joining admits 1e-7
+constexpr double kSameDerivative = 1e-8;  // share of its length
 constexpr int kCreaseSamples = 5;
 constexpr int kDistanceSteps = 4;
 
@@ -43,12 +45,45 @@ BsplinePatch Restricted(const BsplinePatch& from, int ku, int kv) {
   return part;
 }
 
+// The distinct knots of one parameter, from the start of the surface to its end.
+std::vector<double> DistinctKnots(const std::vector<double>& knots, const std::vector<int>& spans) {
+  std::vector<double> distinct;
+  for (const int k : spans) distinct.push_back(knots[At(k)]);
+  distinct.push_back(knots[At(spans.back() + 1)]);
+  return distinct;
+}
+
+// Each interval cut into equal parts.
+std::vector<double> Parts(const std::vector<double>& ends, int parts) {
+  std::vector<double> breaks;
+  for (std::size_t k = 0; k + 1 < ends.size(); ++k) {
+    for (int i = 0; i < parts; ++i) breaks.push_back(std::lerp(ends[k], ends[k + 1], double(i) / parts));
+  }
+  breaks.push_back(ends.back());
+  return breaks;
+}
+
+// Grid lines of both parameters. Faces lie between neighbours.
+struct GridLines {
+  std::vector<double> u, v;
+  long long Faces() const {
+    return static_cast<long long>(u.size() - 1) * static_cast<long long>(v.size() - 1);
+  }
+};
+
+// Distances of a patch from the surface on its sides along u, on those along v, and inside, mm.
+struct CellDistance {
+  double sides_u = 0.0, sides_v = 0.0, inside = 0.0;
+  double Most() const { return std::max({sides_u, sides_v, inside}); }
+};
+
 class Divider {
  public:
   Divider(const BsplinePatch& patch, const RunContext& run) : run_(run) {
     const std::vector<int> us = NonEmptySpans(patch.knots_u, patch.degree_u);
     const std::vector<int> vs = NonEmptySpans(patch.knots_v, patch.degree_v);
     spans_u_ = static_cast<int>(us.size()), spans_v_ = static_cast<int>(vs.size());
+    knots_ = {DistinctKnots(patch.knots_u, us), DistinctKnots(patch.knots_v, vs)};
     for (const int ku : us) {
       for (const int kv : vs) rectangles_.push_back({Restricted(patch, ku, kv)});
     }
@@ -58,17 +93,31 @@ class Divider {
     MeasureSides();
   }
 
-  long long Faces(int parts_u, int parts_v) const {
-    return static_cast<long long>(spans_u_) * parts_u * spans_v_ * parts_v;
-  }
+  const GridLines& knots() const { return knots_; }
   // A seam needs three faces around: two nodes have one edge between them.
-  bool Enough(int parts_u, int parts_v) const {
-    return (!closed_u_ || spans_u_ * parts_u >= 3) && (!closed_v_ || spans_v_ * parts_v >= 3);
+  bool Enough(const GridLines& lines) const {
+    return (!closed_u_ || lines.u.size() > 3) && (!closed_v_ || lines.v.size() > 3);
   }
 
-  absl::StatusOr<DividedSurface> Divide(int parts_u, int parts_v) {
-    nu_ = spans_u_ * parts_u, nv_ = spans_v_ * parts_v, au_ = parts_u, av_ = parts_v;
+  // Lines at which the derivative across them jumps, and the ends of the surface.
+  GridLines Breaks() const {
+    GridLines lines{{knots_.u.front()}, {knots_.v.front()}};
+    for (int k = 1; k < spans_u_; ++k) {
+      if (!Smooth(k, true)) lines.u.push_back(knots_.u[At(k)]);
+    }
+    for (int k = 1; k < spans_v_; ++k) {
+      if (!Smooth(k, false)) lines.v.push_back(knots_.v[At(k)]);
+    }
+    lines.u.push_back(knots_.u.back()), lines.v.push_back(knots_.v.back());
+    return lines;
+  }
+
+  absl::StatusOr<DividedSurface> Divide(const GridLines& lines) {
+    lines_ = lines;
+    nu_ = static_cast<int>(lines.u.size()) - 1, nv_ = static_cast<int>(lines.v.size()) - 1;
     result_ = {};
+    edge_of_.clear();
+    distances_.clear();
     edge_index_.clear();
     FindNodes();
     PM_RETURN_IF_ERROR(run_.Check());
@@ -80,9 +129,24 @@ class Divider {
     if (HasError(result_.findings)) return std::move(result_);
     for (std::size_t k = 0; k < cells_.size(); ++k) {
       if (k % 16 == 0) PM_RETURN_IF_ERROR(run_.Check());
-      result_.max_distance = std::max(result_.max_distance, DistanceOf(static_cast<int>(k)));
+      distances_.push_back(DistanceOf(static_cast<int>(k)));
+      result_.max_distance = std::max(result_.max_distance, distances_.back().Most());
     }
     return std::move(result_);
+  }
+
+  // The lines of the last division, and one more across each face that is farther than the tolerance from the
+  // surface: along the sides that are, or both ways.
+  GridLines Refined(double tolerance) const {
+    std::vector<bool> cut_u(At(nu_), false), cut_v(At(nv_), false);
+    for (std::size_t k = 0; k < cells_.size(); ++k) {
+      const CellDistance& d = distances_[k];
+      if (d.Most() <= tolerance) continue;
+      const bool u = d.sides_u > 0.5 * tolerance, v = d.sides_v > 0.5 * tolerance;
+      if (u || !v) cut_u[At(cells_[k].i)] = true;
+      if (v || !u) cut_v[At(cells_[k].j)] = true;
+    }
+    return {Cut(lines_.u, cut_u, knots_.u), Cut(lines_.v, cut_v, knots_.v)};
   }
 
  private:
@@ -91,21 +155,64 @@ class Divider {
     int i = 0, j = 0;
     std::vector<int> corners;  // of the quad, 0..3 anticlockwise; without one of a collapsed side
   };
-  struct Place {
-    int rectangle = 0;
-    double u = 0.0, v = 0.0;
-  };
-
-  // The place (u, v) in [0,1] of a cell, from inside of it.
-  Place PlaceIn(int i, int j, double u, double v) const {
-    return {(i / au_) * spans_v_ + j / av_, (i % au_ + u) / au_, (j % av_ + v) / av_};
+  // Cuts the marked intervals at the knot nearest to their middle, if one lies in the middle half.
+  static std::vector<double> Cut(const std::vector<double>& lines, const std::vector<bool>& marked,
+                                 const std::vector<double>& knots) {
+    std::vector<double> cut;
+    for (std::size_t k = 0; k + 1 < lines.size(); ++k) {
+      cut.push_back(lines[k]);
+      if (!marked[k]) continue;
+      const double middle = std::midpoint(lines[k], lines[k + 1]), reach = 0.25 * (lines[k + 1] - lines[k]);
+      const double knot =
+          *std::ranges::min_element(knots, {}, [middle](double t) { return std::abs(t - middle); });
+      cut.push_back(std::abs(knot - middle) <= reach ? knot : middle);
+    }
+    cut.push_back(lines.back());
+    return cut;
   }
-  // The jet there, by the cell's own parameters.
+
+  // One parameter of a place: the span between knots, the share of that span, and its derivative by the share
+  // of the cell. Ends of a cell are seen from inside of it; shares beyond it go on.
+  struct SpanPlace {
+    int span = 0;
+    double share = 0.0, slope = 1.0;
+  };
+  static SpanPlace PlaceOn(const std::vector<double>& lines, const std::vector<double>& knots, int cell,
+                           double share) {
+    const double from = lines[At(cell)], to = lines[At(cell + 1)], t = std::lerp(from, to, share);
+    const int last = static_cast<int>(knots.size()) - 2;
+    const auto after = share >= 1.0 ? std::ranges::lower_bound(knots, t) : std::ranges::upper_bound(knots, t);
+    const int span = std::clamp(static_cast<int>(after - knots.begin()) - 1, 0, last);
+    const double low = knots[At(span)], length = knots[At(span + 1)] - low;
+    return {span, (t - low) / length, (to - from) / length};
+  }
+
+  // The jet at the place (u, v) in [0,1] of a cell, by the cell's own parameters.
   SurfaceJet JetIn(int i, int j, double u, double v) const {
-    const Place at = PlaceIn(i, j, u, v);
-    SurfaceJet jet = Evaluate(rectangles_[At(at.rectangle)].shape, at.u, at.v);
-    jet.du /= au_, jet.dv /= av_, jet.duv /= double(au_) * av_;
+    const SpanPlace a = PlaceOn(lines_.u, knots_.u, i, u), b = PlaceOn(lines_.v, knots_.v, j, v);
+    SurfaceJet jet = Evaluate(rectangles_[At(a.span * spans_v_ + b.span)].shape, a.share, b.share);
+    jet.du *= a.slope, jet.dv *= b.slope, jet.duv *= a.slope * b.slope;
     return jet;
+  }
+
+  // The derivative across the inner knot `k` is the same on both sides, at places all along it.
+  bool Smooth(int k, bool across_u) const {
+    const std::vector<double>& knots = across_u ? knots_.u : knots_.v;
+    const double before = knots[At(k)] - knots[At(k - 1)], after = knots[At(k + 1)] - knots[At(k)];
+    for (int span = 0; span < (across_u ? spans_v_ : spans_u_); ++span) {
+      for (int n = 0; n <= kCreaseSamples; ++n) {
+        const double share = double(n) / kCreaseSamples;
+        const auto jet = [&](int side, double at) {
+          const int rectangle = across_u ? side * spans_v_ + span : span * spans_v_ + side;
+          const SurfaceJet j =
+              Evaluate(rectangles_[At(rectangle)].shape, across_u ? at : share, across_u ? share : at);
+          return across_u ? j.du : j.dv;
+        };
+        const Vec3 a = jet(k - 1, 1.0) / before, b = jet(k, 0.0) / after;
+        if ((a - b).norm() > kSameDerivative * std::max(a.norm(), b.norm())) return false;
+      }
+    }
+    return true;
   }
   Vec3 Corner(int span_u, int span_v, double u, double v) const {
     return Position(rectangles_[At(span_u * spans_v_ + span_v)].shape, u, v);
@@ -306,15 +413,20 @@ class Divider {
   }
 
   // Distance of a patch from the surface, from the places of equal parameters on.
-  double DistanceOf(int number) const {
+  CellDistance DistanceOf(int number) const {
     const Cell& cell = cells_[At(number)];
     const PatchShape& shape = result_.joined.model.patches[At(number)].shape;
-    double most = 0.0;
+    CellDistance most;
+    const auto take = [](double& to, double distance) { to = std::max(to, distance); };
     for (int a = 0; a <= kDistanceSteps; ++a) {
       for (int b = 0; b <= kDistanceSteps; ++b) {
         const double u = a / double(kDistanceSteps), v = b / double(kDistanceSteps);
         if (cell.corners.size() == 4) {
-          most = std::max(most, FromSurface(cell, Position(shape, u, v), u, v));
+          const bool side_u = b == 0 || b == kDistanceSteps, side_v = a == 0 || a == kDistanceSteps;
+          take(side_u   ? most.sides_u
+               : side_v ? most.sides_v
+                        : most.inside,
+               FromSurface(cell, Position(shape, u, v), u, v));
           continue;
         }
         if (a + b > kDistanceSteps) continue;
@@ -325,10 +437,16 @@ class Divider {
           const auto& corner = kCornerAt[At(cell.corners[At(k)])];
           at += share[k] * Vec2(corner[0], corner[1]);
         }
-        most = std::max(most, FromSurface(cell, Position(shape, u, v), at.x(), at.y()));
+        take(most.inside, FromSurface(cell, Position(shape, u, v), at.x(), at.y()));
       }
     }
     return most;
+  }
+
+  // A share of a cell, moved into the surface; the surface goes on beyond the cell.
+  static double WithinSurface(const std::vector<double>& lines, int cell, double share) {
+    const double from = lines[At(cell)], length = lines[At(cell + 1)] - from;
+    return std::clamp(share, (lines.front() - from) / length, (lines.back() - from) / length);
   }
 
   double FromSurface(const Cell& cell, const Vec3& p, double u, double v) const {
@@ -343,9 +461,8 @@ class Divider {
                    w = e * g - f * f;
       if (!(w > 1e-12 * e * g)) break;
       const double x = jet.du.dot(r), y = jet.dv.dot(r);
-      // The knot rectangle goes on beyond the cell.
-      u = std::clamp(u + (g * x - f * y) / w, -double(cell.i % au_), double(au_ - cell.i % au_));
-      v = std::clamp(v + (e * y - f * x) / w, -double(cell.j % av_), double(av_ - cell.j % av_));
+      u = WithinSurface(lines_.u, cell.i, u + (g * x - f * y) / w);
+      v = WithinSurface(lines_.v, cell.j, v + (e * y - f * x) / w);
     }
     return best;
   }
@@ -356,7 +473,9 @@ class Divider {
   double size_ = 0.0;
   std::array<bool, 2> pole_u_ = {}, pole_v_ = {};  // the sides u = 0, 1 and v = 0, 1 are points
   bool closed_u_ = false, closed_v_ = false;
-  int nu_ = 0, nv_ = 0, au_ = 1, av_ = 1;
+  GridLines knots_, lines_;
+  int nu_ = 0, nv_ = 0;
+  std::vector<CellDistance> distances_;
   DividedSurface result_;
   std::vector<int> vertex_;
   std::vector<Cell> cells_;
@@ -364,30 +483,54 @@ class Divider {
   std::map<std::pair<int, int>, int> edge_of_;
 };
 
+// The lines to begin with.
+GridLines FirstLines(const Divider& divider, const Division& division) {
+  const GridLines ends = division.lines == DivisionLines::kFewest ? divider.Breaks() : divider.knots();
+  for (int more = 0;; ++more) {
+    GridLines lines{Parts(ends.u, division.parts_u + more), Parts(ends.v, division.parts_v + more)};
+    if (divider.Enough(lines)) return lines;
+  }
+}
+
+// Whether an interval between knots has more than kMaxDivisionParts parts.
+bool TooMany(const std::vector<double>& lines, const std::vector<double>& knots) {
+  for (std::size_t k = 0; k + 1 < knots.size(); ++k) {
+    const auto first = std::ranges::lower_bound(lines, knots[k]),
+               last = std::ranges::lower_bound(lines, knots[k + 1]);
+    if (last - first > kMaxDivisionParts) return true;
+  }
+  return false;
+}
+
+GridLines NextLines(const Divider& divider, const Division& division, const GridLines& lines) {
+  if (division.lines == DivisionLines::kFewest) return divider.Refined(division.tolerance);
+  return {Parts(lines.u, 2), Parts(lines.v, 2)};
+}
+
 }  // namespace
 
 absl::StatusOr<DividedSurface> DivideSurface(const BsplinePatch& patch, const Division& division,
                                              const RunContext& run) {
   Divider divider(patch, run);
-  int u = division.parts_u, v = division.parts_v;
-  while (!divider.Enough(u, v)) ++u, ++v;
-  if (divider.Faces(u, v) > kMaxNetworkFaces) {
-    return FieldError(
-        "division", fmt::format("makes {} faces; must be at most {}", divider.Faces(u, v), kMaxNetworkFaces));
+  GridLines lines = FirstLines(divider, division);
+  if (lines.Faces() > kMaxNetworkFaces) {
+    return FieldError("division",
+                      fmt::format("makes {} faces; must be at most {}", lines.Faces(), kMaxNetworkFaces));
   }
   for (;;) {
-    PM_ASSIGN_OR_RETURN(DividedSurface divided, divider.Divide(u, v));
+    PM_ASSIGN_OR_RETURN(DividedSurface divided, divider.Divide(lines));
     if (HasError(divided.findings) || divided.max_distance <= division.tolerance) return divided;
-    const int next_u = std::min(2 * u, kMaxDivisionParts), next_v = std::min(2 * v, kMaxDivisionParts);
-    if ((next_u == u && next_v == v) || divider.Faces(next_u, next_v) > kMaxNetworkFaces) {
+    GridLines next = NextLines(divider, division, lines);
+    const GridLines& knots = divider.knots();
+    if (next.Faces() > kMaxNetworkFaces || TooMany(next.u, knots.u) || TooMany(next.v, knots.v)) {
       divided.findings.push_back(MakeWarning(
           "DIVISION_COARSE",
           fmt::format("the network leaves the surface by {:.3g} mm, more than the tolerance {:g}, "
                       "in {} faces",
-                      divided.max_distance, division.tolerance, divider.Faces(u, v))));
+                      divided.max_distance, division.tolerance, lines.Faces())));
       return divided;
     }
-    u = next_u, v = next_v;
+    lines = std::move(next);
   }
 }
 

@@ -11,9 +11,15 @@ namespace patchmill {
 
 inline constexpr int kMaxDivisionParts = 64;
 
+// Where faces end. kKnots: at every knot, so that polynomial surfaces come back exactly. kFewest: as few faces
+// as keep the tolerance, wherever the surface has a continuous first derivative.
+enum class DivisionLines { kKnots, kFewest };
+
 struct Division {
-  int parts_u = 1, parts_v = 1;  // of each rectangle between knots, at least; 1 .. kMaxDivisionParts
-  double tolerance = 1e-3;       // mm
+  // Parts of each rectangle between knots (kFewest: of the surface), at least; 1 .. kMaxDivisionParts.
+  int parts_u = 1, parts_v = 1;
+  double tolerance = 1e-3;  // mm
+  DivisionLines lines = DivisionLines::kKnots;
 };
 
 struct DividedSurface {
@@ -25,8 +31,9 @@ struct DividedSurface {
 
 // Each face gets corner positions, cubic edges, normals and twists of the surface. So a polynomial surface of
 // degree 3 or less both ways comes back to rounding. Others are met to the fourth order of the size of the
-// faces: the parts are doubled until the distance is within the tolerance, or the network would have more
-// than kMaxNetworkFaces faces or kMaxDivisionParts parts. Where the surface has a crease at a knot, so has
+// faces: the parts are doubled (kFewest: those beside faces that are too far away are halved, at a knot near
+// their middle if there is one) until the distance is within the tolerance, or the network would have more
+// than kMaxNetworkFaces faces or kMaxDivisionParts parts between knots. Where the surface has a crease at a knot, so has
 // the network. A side that is one point becomes a pole: the faces at it have three sides. Opposite sides
 // that are one curve become a seam that is as smooth as the surface is there. Errors of `run`;
 // INVALID_ARGUMENT for a surface of too many rectangles.

@@ -125,6 +125,11 @@ absl::StatusOr<Division> DivisionOf(const v1::SurfaceDivision& from) {
     Require(errors, "division.tolerance_mm", division.tolerance,
             division.tolerance >= 1e-9 && division.tolerance <= 10.0, "in [1e-9, 10]");
   }
+  if (!v1::DivisionLines_IsValid(from.lines())) {
+    errors.Add("division.lines",
+               fmt::format("= {}; this server does not know that value", static_cast<int>(from.lines())));
+  }
+  if (from.lines() == v1::DIVISION_LINES_FEWEST) division.lines = DivisionLines::kFewest;
   PM_RETURN_IF_ERROR(errors.ToStatus());
   return division;
 }

@@ -79,6 +79,57 @@ TEST(DivideSurface, ASkinThroughSectionsComesBackToRounding) {
   EXPECT_LE(divided.max_distance, 1e-9);
 }
 
+// One bicubic on knots of its own: the knots change nothing, and one face is enough.
+TEST(DivideSurface, TheFewestFacesOfABicubicWithIdleKnotsAreOne) {
+  const auto height = [](double u, double v) { return 3 * u * u * u - 2 * u * v * v + v * v * v - u; };
+  // The polar form of a polynomial gives its control points on any knots.
+  const std::vector<double> knots = {0, 0, 0, 0, 0.2, 0.5, 0.6, 1, 1, 1, 1};
+  BsplinePatch patch;
+  patch.degree_u = patch.degree_v = 3;
+  patch.knots_u = patch.knots_v = knots;
+  const auto polar = [&](int power, std::size_t k) {  // of t^power at knots k+1 .. k+3
+    const double a = knots[k + 1], b = knots[k + 2], c = knots[k + 3];
+    const double value[4] = {1.0, (a + b + c) / 3, (a * b + b * c + a * c) / 3, a * b * c};
+    return value[power];
+  };
+  for (std::size_t i = 0; i < 7; ++i) {
+    for (std::size_t j = 0; j < 7; ++j) {
+      const double z = 3 * polar(3, i) - 2 * polar(1, i) * polar(2, j) + polar(3, j) - polar(1, i);
+      patch.points.emplace_back(20 * polar(1, i), 30 * polar(1, j), 5 * z);
+    }
+  }
+  ASSERT_NEAR(Position(PatchShape(patch), 0.3, 0.7).z(), 5 * height(0.3, 0.7), 1e-12);
+  EXPECT_EQ(Divided(patch, {}).joined.model.patches.size(), 16u);
+  const DividedSurface fewest = Divided(patch, {.lines = DivisionLines::kFewest});
+  EXPECT_EQ(fewest.joined.model.patches.size(), 1u);
+  EXPECT_LE(fewest.max_distance, 1e-9);
+}
+
+TEST(DivideSurface, TheFewestFacesKeepTheToleranceAndCreases) {
+  const BsplinePatch patch = Wavy(3, 9, {0, 0, 0, 0, 1, 2, 3, 4, 5, 6, 6, 6, 6});
+  const std::size_t all = Divided(patch, {}).joined.model.patches.size();
+  std::size_t before = 0;
+  for (const double tolerance : {4.0, 1e-1, 1e-2}) {
+    const DividedSurface divided = Divided(patch, {.tolerance = tolerance, .lines = DivisionLines::kFewest});
+    EXPECT_LE(divided.max_distance, tolerance);
+    EXPECT_GE(divided.joined.model.patches.size(), before);
+    before = divided.joined.model.patches.size();
+    if (tolerance > 0.5) {
+      EXPECT_LT(before, all);
+    }
+  }
+  // A roof: its ridge is a line of the grid, whatever the tolerance.
+  BsplinePatch roof;
+  roof.degree_u = roof.degree_v = 1;
+  roof.knots_u = {0, 0, 0.3, 0.5, 1, 1}, roof.knots_v = {0, 0, 1, 1};
+  for (const double x : {0.0, 6.0, 10.0, 20.0}) {
+    for (const double y : {0.0, 10.0}) roof.points.emplace_back(x, y, 5 - std::abs(x - 10) / 2);
+  }
+  const DividedSurface folded = Divided(roof, {.tolerance = 5.0, .lines = DivisionLines::kFewest});
+  EXPECT_EQ(folded.joined.model.patches.size(), 2u);
+  EXPECT_LE(folded.max_distance, 1e-9);
+}
+
 TEST(DivideSurface, AHigherDegreeIsMetWithinTheTolerance) {
   const BsplinePatch patch = Wavy(4, 5, {0, 0, 0, 0, 0, 1, 1, 1, 1, 1});
   for (const double tolerance : {1e-1, 1e-3}) {
