@@ -9,10 +9,10 @@
 
 namespace patchmill {
 
-// Cubic splines through the ends of the spans of each chain, with the end tangents of the chain. Their breaks
-// are the means of those of all chains. (Piegl and Tiller, The NURBS Book, section 10.3.) Chains that measured
-// points made so differ from their splines between the points only. INVALID_ARGUMENT for numbers of spans that
-// differ. Cost O(points).
+// Cubic splines through the ends of the spans of each chain, with the end tangents of the chain. Their
+// breaks are the means of those of all chains. (Piegl and Tiller, The NURBS Book, section 10.3.) Chains
+// that measured points made so differ from their splines between the points only. INVALID_ARGUMENT for
+// numbers of spans that differ. Cost O(points).
 absl::StatusOr<std::vector<BezierChain>> WithMeanBreaks(const std::vector<BezierChain>& chains);
 
 }  // namespace patchmill

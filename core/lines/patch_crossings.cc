@@ -22,9 +22,9 @@ constexpr int kMostSteps = 96;                 // cells of a piece each way
 constexpr std::size_t kMostCells = 1'500'000;  // of the whole surface
 constexpr double kNewtonEnd = 1e-12;           // share of the surface's size
 
-// The search moves the points of the grids by this share of the surface's size, each in a direction of its own.
-// So no edge of a grid meets an edge or a corner of another one, as those of parts with straight walls and
-// symmetries would. The curves are refined on the surfaces themselves.
+// The search moves the points of the grids by this share of the surface's size, each in a direction of its
+// own. So no edge of a grid meets an edge or a corner of another one, as those of parts with straight walls
+// and symmetries would. The curves are refined on the surfaces themselves.
 constexpr double kShift = 1e-9;
 
 // A vector in [-1, 1]^3 for a point of the grids.

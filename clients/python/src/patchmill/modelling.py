@@ -66,7 +66,7 @@ def build(outline: SectionCurves | BoundaryCurves | CrossingCurves | BsplinePatc
     """Makes a first surface from outline curves: a skin through sections, or a surface between four boundary
     curves. Or makes a network from curves that cross, from a surface that it divides, or from a polygon mesh.
 
-    outline: what the model is made from. Without one the network is checked, and curves of files are put in place.
+    outline: what the model is made from. Without one the network is checked, with the curves of its files.
     network: a network whose vertices without a normal take the normal of the surface.
     division: the surface is divided into a network.
     """
