@@ -4,10 +4,13 @@ import pathlib
 import tempfile
 import threading
 import time
+import types
 import unittest
 
+import grpc
 import numpy as np
 import patchmill as pm
+from patchmill import _run
 from support import CLIENT, DOME, DOME_JSON, HILLS, ROOT, command_line, long_operation, operation
 
 
@@ -235,6 +238,14 @@ class EndingEarly(unittest.TestCase):
         with self.assertRaisesRegex(pm.DeadlineError, "not done within its time"):
             CLIENT.mill(HILLS, long_operation(), timeout_s=0.5)
         self.assertLess(time.monotonic() - began, 10)
+
+    def test_a_server_whose_clock_is_ahead_ends_the_call_first(self):
+        call, cancelled = types.SimpleNamespace(cancel=None), grpc.RpcError()
+        cancelled.code = lambda: grpc.StatusCode.CANCELLED
+        now = time.monotonic()
+        self.assertIsInstance(_run._error_of(call, cancelled, "here", True, now + 0.01), pm.DeadlineError)
+        for end in (now + 60, None):
+            self.assertIsInstance(_run._error_of(call, cancelled, "here", True, end), pm.ServerLostError)
 
 
 if __name__ == "__main__":

@@ -3,16 +3,18 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
+import time
 from typing import Any, TypeVar
 
 import grpc
 
 from ._call import Call, progress_of
 from ._status import ended_by_server, error_of
-from .errors import CallError, JobCancelledError
+from .errors import CallError, DeadlineError, JobCancelledError
 
 T = TypeVar("T")
 Metadata = list[tuple[str, str]]
+_WAY_S = 0.1
 
 
 def run_once(channel: Any, call: Call[T], request: Any, metadata: Metadata, timeout_s: float | None, where: str) -> T:
@@ -21,6 +23,7 @@ def run_once(channel: Any, call: Call[T], request: Any, metadata: Metadata, time
     method, collector = call.method, call.collector()
     codec = {"request_serializer": method.request.SerializeToString, "response_deserializer": method.response.FromString}
     options = {"timeout": timeout_s, "metadata": metadata}
+    end = _end_of(timeout_s)
     has_begun = False
     with contextlib.ExitStack() as stack:
         try:
@@ -42,7 +45,7 @@ def run_once(channel: Any, call: Call[T], request: Any, metadata: Metadata, time
         except grpc.FutureCancelledError:
             raise error_of(rpc, where) from None
         except grpc.RpcError as error:
-            raise _error_of(call, error, where, has_begun) from None
+            raise _error_of(call, error, where, has_begun, end) from None
     return collector.finish()
 
 
@@ -50,8 +53,15 @@ def _is_cancelled(call: Call[T]) -> bool:
     return call.cancel is not None and call.cancel.is_cancelled
 
 
-def _error_of(call: Call[T], error: Any, where: str, has_begun: bool) -> CallError:
+def _end_of(timeout_s: float | None) -> float | None:
+    return None if timeout_s is None else time.monotonic() + timeout_s
+
+
+def _error_of(call: Call[T], error: Any, where: str, has_begun: bool, end: float | None) -> CallError:
     if error.code() == grpc.StatusCode.CANCELLED and not _is_cancelled(call):
+        # The server knows the deadline, too, and its clock may be ahead by the time that the call took to it.
+        if end is not None and time.monotonic() > end - _WAY_S:
+            return DeadlineError("The call was not done within its time (timeout_s).", "DEADLINE_EXCEEDED")
         return ended_by_server(where, has_begun)
     return error_of(error, where)
 
@@ -67,6 +77,7 @@ async def run_once_async(channel: Any, call: Call[T], request: Any, metadata: Me
     method, collector = call.method, call.collector()
     codec = {"request_serializer": method.request.SerializeToString, "response_deserializer": method.response.FromString}
     options = {"timeout": timeout_s, "metadata": tuple(metadata)}
+    end = _end_of(timeout_s)
     loop = asyncio.get_running_loop()
     has_begun = False
     with contextlib.ExitStack() as stack:
@@ -90,6 +101,6 @@ async def run_once_async(channel: Any, call: Call[T], request: Any, metadata: Me
                 raise
             raise JobCancelledError("The call was cancelled.", "CANCELLED", "CANCELLED") from None
         except grpc.RpcError as error:
-            raise _error_of(call, error, where, has_begun) from None
+            raise _error_of(call, error, where, has_begun, end) from None
     # Large arrays take a moment; the loop goes on meanwhile.
     return await asyncio.to_thread(collector.finish)
