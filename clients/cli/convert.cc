@@ -1,5 +1,8 @@
+#include <filesystem>
+#include <map>
 #include <memory>
 
+#include <absl/strings/ascii.h>
 #include <fmt/format.h>
 
 #include "clients/cli/call.h"
@@ -18,7 +21,24 @@ struct ConvertOptions {
   ReadingOptions reading;
   std::string model, output;
   double scale = 1.0;
+  std::optional<double> chord;
 };
+
+// What the endings of files for other systems ask for.
+const std::map<std::string, std::string> kFileFormats = {
+    {".igs", "iges"}, {".iges", "iges"}, {".stp", "step"}, {".step", "step"},
+    {".p21", "step"}, {".stl", "stl"},   {".obj", "obj"}};
+
+std::string FormatOf(const std::string& path) {
+  const auto at = kFileFormats.find(absl::AsciiStrToLower(std::filesystem::path(path).extension().native()));
+  return at == kFileFormats.end() ? "" : at->second;
+}
+
+OutputFile OutputOf(const std::string& path) {
+  std::vector<std::string> endings = {".json", ".pb"};
+  for (const auto& [ending, format] : kFileFormats) endings.push_back(ending);
+  return OutputFile(path, std::move(endings));
+}
 
 void PrintSummary(const ConvertOptions& options, const v1::ConvertModelResponse& response) {
   // Warnings are said, whatever --quiet says.
@@ -28,7 +48,11 @@ void PrintSummary(const ConvertOptions& options, const v1::ConvertModelResponse&
   }
   if (options.common.quiet) return;
   const v1::PatchModel& model = response.model();
-  if (model.has_network()) {
+  if (const std::string format = FormatOf(options.output); !format.empty()) {
+    const bool triangles = format == "stl" || format == "obj";
+    fmt::print(stderr, "{}: {} {}, in mm\n", options.output, response.file_item_count(),
+               triangles ? "triangles" : "B-spline surfaces");
+  } else if (model.has_network()) {
     fmt::print(stderr, "{}: a curve network of {} faces\n", options.output, model.network().faces_size());
   } else {
     fmt::print(stderr, "{}: {} patches of {} faces, in mm\n", options.output, model.patches_size(),
@@ -37,8 +61,10 @@ void PrintSummary(const ConvertOptions& options, const v1::ConvertModelResponse&
 }
 
 absl::Status Run(const ConvertOptions& options, InterruptWatch& watch) {
-  OutputFile output = ModelFile(options.output);
+  OutputFile output = OutputOf(options.output);
   v1::ConvertModelRequest request;
+  request.set_file_format(FormatOf(options.output));
+  if (options.chord) request.set_chord_mm(*options.chord);
   absl::StatusOr<v1::ModelSource> source = ReadModel(options.model, options.reading);
   if (!source.ok()) return source.status();
   if (const absl::Status writable = CheckWritable({&output}); !writable.ok()) return writable;
@@ -53,7 +79,11 @@ absl::Status Run(const ConvertOptions& options, InterruptWatch& watch) {
     return absl::FailedPreconditionError(
         fmt::format("{}: {} errors; no file was written", options.model, errors));
   }
-  SetModel(response->model(), output);
+  if (request.file_format().empty()) {
+    SetModel(response->model(), output);
+  } else {
+    output.Set(response->file());
+  }
   if (output.size() > kMaxFileBytes) {
     return absl::FailedPreconditionError(
         fmt::format("{} would have {} MiB, and no command reads more than {}; {}", options.output,
@@ -72,10 +102,14 @@ Command AddConvert(CLI::App& app) {
   app.add_option("IN", options->model, kModelHelp)->required();
   app.add_option(
          "OUT", options->output,
-         "the model that gives the same jobs: .pb (its bytes, small) or .json; an existing file is replaced")
+         "the model that gives the same jobs: .pb (its bytes, small) or .json; or a file for other systems: "
+         ".step, .stp, .p21,\n"
+         ".igs or .iges (B-spline surfaces), .stl or .obj (triangles); an existing file is replaced")
       ->required();
   AddReadingOptions(app, options->reading);
   AddNumber(app, "--scale", options->scale, "factor that all coordinates are multiplied by");
+  AddNumber(app, "--chord", options->chord,
+            "mm: distance of the triangles of .stl and .obj from the surface; 0.0001 to 10, default 0.01");
   AddCommonOptions(app, options->common);
   return [options](InterruptWatch& watch) { return Run(*options, watch); };
 }

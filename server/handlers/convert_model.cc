@@ -2,7 +2,12 @@
 
 #include <fmt/format.h>
 
+#include "cam/plan/plan.h"
 #include "core/base/status.h"
+#include "core/exchange/iges.h"
+#include "core/exchange/mesh_files.h"
+#include "core/exchange/step.h"
+#include "core/io/text_scanner.h"
 #include "server/convert/fields.h"
 #include "server/convert/model.h"
 #include "server/convert/report.h"
@@ -30,6 +35,53 @@ absl::Status CopyNetwork(const v1::ConvertModelRequest& request, const ModelAcce
   return absl::OkStatus();
 }
 
+constexpr double kLeastChord = 1e-4, kMostChord = 10.0, kDefaultChord = 0.01;  // mm
+
+bool IsMesh(const std::string& format) { return format == "stl" || format == "obj"; }
+
+void CheckFile(const v1::ConvertModelRequest& request, FieldErrors& errors) {
+  const std::string& format = request.file_format();
+  if (!format.empty() && format != "iges" && format != "step" && !IsMesh(format)) {
+    errors.Add("file_format", fmt::format("= {}; must be one of iges, step, stl, obj", Quoted(format)));
+  }
+  if (!request.has_chord_mm()) return;
+  if (!IsMesh(format))
+    errors.Add("chord_mm", "is set; it belongs to the formats stl and obj, which have triangles");
+  Require(errors, "chord_mm", request.chord_mm(),
+          request.chord_mm() >= kLeastChord && request.chord_mm() <= kMostChord,
+          fmt::format("in [{:g}, {:g}]", kLeastChord, kMostChord));
+}
+
+struct ModelFile {
+  std::string bytes;
+  std::size_t items = 0;
+  Diagnostics findings;
+};
+
+absl::StatusOr<ModelFile> FileOf(const v1::ConvertModelRequest& request, PatchModel model,
+                                 const RunContext& run) {
+  ModelFile file;
+  const std::string& format = request.file_format();
+  if (IsMesh(format)) {
+    PM_ASSIGN_OR_RETURN(const Surface surface, BuildPlacedSurface(std::move(model), Setup(), run));
+    const double chord = request.has_chord_mm() ? request.chord_mm() : kDefaultChord;
+    PM_ASSIGN_OR_RETURN(const std::vector<PieceTriangles> mesh,
+                        MakeSurfaceMesh(surface, {.chord = chord}, run));
+    for (const PieceTriangles& piece : mesh) file.items += piece.triangles.size();
+    file.bytes = format == "stl" ? StlBytes(mesh) : ObjText(mesh);
+  } else {
+    PM_ASSIGN_OR_RETURN(SplineSurfaces surfaces, SplineSurfacesOf(model, run));
+    file.items = surfaces.surfaces.size();
+    file.bytes = format == "step" ? StepText(surfaces) : IgesText(surfaces);
+    file.findings = std::move(surfaces.findings);
+  }
+  if (file.bytes.size() > limits::kMaxMessageBytes - (std::size_t{1} << 20)) {
+    return LimitError("file_bytes", static_cast<double>(limits::kMaxMessageBytes),
+                      static_cast<double>(file.bytes.size()));
+  }
+  return file;
+}
+
 }  // namespace
 
 absl::Status HandleConvertModel(const Call& call, const v1::ConvertModelRequest& request,
@@ -37,14 +89,15 @@ absl::Status HandleConvertModel(const Call& call, const v1::ConvertModelRequest&
   PM_RETURN_IF_ERROR(RefuseUnknownFields(request));
   PM_RETURN_IF_ERROR(CheckThreads(request.max_threads(), "max_threads"));
   Placement placement;
+  FieldErrors errors;
+  CheckFile(request, errors);
   if (request.has_scale()) {
-    FieldErrors errors;
     placement.scale = request.scale();
     Require(errors, "scale", request.scale(),
             request.scale() >= limits::kMinScale && request.scale() <= limits::kMaxScale,
             fmt::format("in [{:g}, {:g}]", limits::kMinScale, limits::kMaxScale));
-    PM_RETURN_IF_ERROR(errors.ToStatus());
   }
+  PM_RETURN_IF_ERROR(errors.ToStatus());
   return RunQuickCall(
       call, {.max_threads = request.max_threads()}, [&](const RunContext& run) -> absl::Status {
         const ModelAccess models = ModelsOf(call);
@@ -52,18 +105,27 @@ absl::Status HandleConvertModel(const Call& call, const v1::ConvertModelRequest&
         AddDiagnostics(loaded.faults, Vec3::Zero(), response->mutable_diagnostics());
         if (!loaded.faults.empty()) return absl::OkStatus();
         PM_RETURN_IF_ERROR(run.Check());
-        if (loaded.network) {
+        const bool as_file = !request.file_format().empty();
+        if (loaded.network && !as_file) {
           PM_RETURN_IF_ERROR(CopyNetwork(request, models, run, response->mutable_model()));
           response->set_model_sha256(loaded.digest);
           AddDiagnostics(loaded.remarks, Vec3::Zero(), response->mutable_diagnostics());
           return absl::OkStatus();
         }
-        const PatchModel model = Place(placement, std::move(loaded.model));
-        *response->mutable_model() = ToProto(model);
-        AddDiagnostics(loaded.remarks, Vec3::Zero(), response->mutable_model()->mutable_findings());
+        PatchModel model = Place(placement, std::move(loaded.model));
         response->set_model_sha256(ModelDigest(model));
+        if (!as_file) {
+          *response->mutable_model() = ToProto(model);
+          AddDiagnostics(loaded.remarks, Vec3::Zero(), response->mutable_model()->mutable_findings());
+        }
         if (loaded.unitless) loaded.remarks.push_back(UnitFinding(ControlBox(model), std::nullopt));
         AddDiagnostics(loaded.remarks, Vec3::Zero(), response->mutable_diagnostics());
+        if (as_file) {
+          PM_ASSIGN_OR_RETURN(ModelFile file, FileOf(request, std::move(model), run));
+          AddDiagnostics(file.findings, Vec3::Zero(), response->mutable_diagnostics());
+          *response->mutable_file() = std::move(file.bytes);
+          response->set_file_item_count(static_cast<int>(file.items));
+        }
         return run.Check();
       });
 }

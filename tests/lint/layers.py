@@ -33,6 +33,7 @@ ALLOWED["core/io"] = set(UP_TO_NETWORK)
 ALLOWED["core/joining"] = set(UP_TO_NETWORK)
 ALLOWED["core/crossing"] = UP_TO_NETWORK | {"core/joining"}
 ALLOWED["core/division"] = UP_TO_NETWORK | {"core/joining"}
+ALLOWED["core/exchange"] = set(core[: CORE.index("surface") + 1])
 ALLOWED["core/editing"] = set(core[: CORE.index("surface") + 1]) | {"core/joining"}
 ALLOWED["core/fairing"] = {"core/base"}
 ALLOWED["core/brep"] = set(core[: CORE.index("patch") + 1])

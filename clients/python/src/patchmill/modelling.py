@@ -45,16 +45,19 @@ def check(model: ModelLike, *, setup: Setup | None = None, tool: Tool | None = N
                 inline(chosen, make), cancel=cancel, timeout_s=timeout_s)
 
 
-def convert(model: ModelLike, *, scale: float | None = None, max_threads: int = 0, cancel: Canceller | None = None,
-            timeout_s: float | None = None) -> Call[ConvertResult]:
-    """Converts a model of any format into a PatchModel that gives the same jobs.
+def convert(model: ModelLike, *, scale: float | None = None, file_format: str = "", chord_mm: float | None = None,
+            max_threads: int = 0, cancel: Canceller | None = None, timeout_s: float | None = None) -> Call[ConvertResult]:
+    """Converts a model of any format into a PatchModel that gives the same jobs, or into a file for other systems.
 
-    scale: scale factor of the model. A curve network keeps its scale.
+    scale: scale factor of the model. A curve network keeps its scale, unless it goes into a file.
+    file_format: "iges" or "step" for B-spline surfaces, "stl" or "obj" for triangles: `file` of the result.
+    chord_mm: distance of the triangles from the surface.
     """
     chosen = model_of(model)
 
     def make(m: Model) -> Any:
-        return set_fields(set_source(model_service_pb2.ConvertModelRequest(), m), scale=scale, max_threads=max_threads)
+        return set_fields(set_source(model_service_pb2.ConvertModelRequest(), m), scale=scale, file_format=file_format,
+                          chord_mm=chord_mm, max_threads=max_threads)
 
     return Call(RPCS["ConvertModel"], make(chosen), lambda: One(lambda answer: from_message(ConvertResult, answer)),
                 inline(chosen, make), cancel=cancel, timeout_s=timeout_s)
