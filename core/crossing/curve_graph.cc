@@ -10,6 +10,7 @@
 
 #include "core/base/index.h"
 #include "core/base/union_find.h"
+#include "core/spatial/box_tree.h"
 
 namespace patchmill {
 namespace {
@@ -210,25 +211,52 @@ class GraphMaker {
     stretches_ = std::move(kept);
   }
 
+  // A tree over the spans of all curves that are not dropped.
+  struct SpanTree {
+    std::vector<std::pair<int, int>> spans;  // curve, span
+    BoxTree tree{{}};
+  };
+  const SpanTree& Spans() const {
+    if (span_tree_) return *span_tree_;
+    span_tree_.emplace();
+    std::vector<Box3> boxes;
+    for (int c = 0; c < static_cast<int>(curves_.size()); ++c) {
+      if (dropped_.contains(c)) continue;
+      const BezierChain& chain = curves_[At(c)].chain;
+      for (int k = 0; k < chain.spans(); ++k) {
+        Box3& box = boxes.emplace_back();
+        for (int i = 0; i <= chain.degree; ++i) box.Add(chain.points[At(k * chain.degree + i)]);
+        span_tree_->spans.emplace_back(c, k);
+      }
+    }
+    span_tree_->tree = BoxTree(std::move(boxes));
+    return *span_tree_;
+  }
+
   // Says by how much the ends of a curve miss another one, if they miss it narrowly.
   std::string Miss(int curve) const {
+    constexpr int kSamples = 16;  // of a span
+    const SpanTree& spans = Spans();
     std::string text;
     for (const double t : {0.0, 1.0}) {
       const Vec3 p = Evaluate(curves_[At(curve)].chain, t).p;
       double best = kInfinity;
       int other = -1;
-      for (int c = 0; c < static_cast<int>(curves_.size()); ++c) {
-        if (c == curve || dropped_.contains(c)) continue;
+      spans.tree.Near(p, kNearMiss * tolerance_, [&](int item) {
+        const auto [c, span] = spans.spans[At(item)];
+        if (c == curve) return true;
         const BezierChain& chain = curves_[At(c)].chain;
-        double start = 0.0, nearest = kInfinity;
-        for (int i = 0; i <= 16 * chain.spans() && i <= 4096; ++i) {
-          const double at = i / std::min(4096.0, 16.0 * chain.spans());
+        const double from = chain.breaks[At(span)], to = chain.breaks[At(span + 1)];
+        double start = from, nearest = kInfinity;
+        for (int i = 0; i <= kSamples; ++i) {
+          const double at = std::lerp(from, to, i / double(kSamples));
           const double d = (Evaluate(chain, at).p - p).norm();
           if (d < nearest) nearest = d, start = at;
         }
         const double d = (Evaluate(chain, FootFrom(chain, start, p)).p - p).norm();
-        if (d < best) best = d, other = c;
-      }
+        if (d < best || (d == best && c < other)) best = d, other = c;
+        return true;
+      });
       if (best <= tolerance_ || best > kNearMiss * tolerance_) continue;
       text += fmt::format("; its {} misses {} by {:.3g} mm, and the tolerance is {:g}",
                           t == 0.0 ? "start" : "end", Name(other), best, tolerance_);
@@ -339,6 +367,7 @@ class GraphMaker {
   double tolerance_;
   Diagnostics& findings_;
   std::set<int> dropped_;
+  mutable std::optional<SpanTree> span_tree_;  // made when an end is looked at first
   std::vector<Stretch> stretches_;
   CurveGraph graph_;
 };

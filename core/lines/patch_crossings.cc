@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <map>
-#include <set>
+#include <optional>
 #include <tuple>
 
 #include <Eigen/LU>
@@ -20,16 +21,19 @@ namespace {
 
 constexpr int kMostSteps = 96;                 // cells of a piece each way
 constexpr std::size_t kMostCells = 1'500'000;  // of the whole surface
+constexpr double kSame = 10 * kCrossingGap;    // mm: ends nearer to each other are one
 constexpr double kNewtonEnd = 1e-12;           // share of the surface's size
 
-// The search moves the points of the grids by this share of the surface's size, each in a direction of its
-// own. So no edge of a grid meets an edge or a corner of another one, as those of parts with straight walls
-// and symmetries would. The curves are refined on the surfaces themselves.
+// The search moves each patch by this share of the surface's size, in a direction of its own. So no edge of
+// a grid meets an edge or a corner of another patch's grid, as those of parts with straight walls and
+// symmetries would. A curve along a border then lies on one side of it or on the other: a second search
+// moves all patches the other way. The curves are refined on the surfaces themselves.
 constexpr double kShift = 1e-9;
 
-// A vector in [-1, 1]^3 for a point of the grids.
-Vec3 ShiftOf(std::size_t point) {
-  return {2 * Draw(3 * point + 1) - 1, 2 * Draw(3 * point + 2) - 1, 2 * Draw(3 * point + 3) - 1};
+// A vector in [-1, 1]^3 for a patch.
+Vec3 ShiftOf(PatchId patch) {
+  const std::uint64_t k = 3 * static_cast<std::uint64_t>(patch.value);
+  return {2 * Draw(k + 1) - 1, 2 * Draw(k + 2) - 1, 2 * Draw(k + 3) - 1};
 }
 
 // A piece cut into cells of equal parameters; a cell is two triangles.
@@ -78,11 +82,17 @@ class CrossingFinder {
   absl::StatusOr<Crossings3d> Find() {
     result_.depth = params_.depth;
     MakeGrids();
-    if (absl::Status status = MakePoints(); !status.ok()) return status;
-    if (absl::Status status = FindParts(); !status.ok()) return status;
-    for (auto& [pair, parts] : parts_) {
-      if (absl::Status status = run_.Check(); !status.ok()) return status;
-      TracePair(pair, parts);
+    for (const double side : {1.0, -1.0}) {
+      if (absl::Status status = MakePoints(side * kShift * surface_.scale); !status.ok()) return status;
+      if (absl::Status status = FindParts(side < 0); !status.ok()) return status;
+      for (auto& [pair, parts] : parts_) {
+        if (absl::Status status = run_.Check(); !status.ok()) return status;
+        TracePair(pair, parts);
+      }
+    }
+    DropDoubles();
+    for (auto& [pair, found] : found_) {
+      if (!found.curves.empty()) result_.pairs.push_back(std::move(found));
     }
     JoinCurves();
     return std::move(result_);
@@ -95,6 +105,11 @@ class CrossingFinder {
   struct Cell {
     PieceId piece;
     int i = 0, j = 0;
+  };
+
+  // The curves of a pair, and for each one the edges of the patches that it runs along.
+  struct Found : PatchCrossing {
+    std::vector<std::optional<PatchEdge>> edges_a, edges_b;
   };
 
   void MakeGrids() {
@@ -122,17 +137,18 @@ class CrossingFinder {
     }
   }
 
-  absl::Status MakePoints() {
+  absl::Status MakePoints(double shift) {
+    points_.clear(), cells_.clear(), parts_.clear();
     for (std::size_t k = 0; k < grids_.size(); ++k) {
       if (absl::Status status = run_.Check(); !status.ok()) return status;
       PieceGrid& grid = grids_[k];
       grid.first_cell = static_cast<int>(cells_.size()), grid.first_point = static_cast<int>(points_.size());
       const PieceId piece{static_cast<int>(k)};
+      const Vec3 moved = shift * ShiftOf(surface_.piece(piece).patch);
       for (int i = 0; i <= grid.nu; ++i) {
         for (int j = 0; j <= grid.nv; ++j) {
-          const Vec3 shift = kShift * surface_.scale * ShiftOf(points_.size());
           points_.push_back(Position(surface_.piece(piece), i / double(grid.nu), j / double(grid.nv)) +
-                            shift);
+                            moved);
           if (i < grid.nu && j < grid.nv) cells_.push_back({piece, i, j});
         }
       }
@@ -152,13 +168,7 @@ class CrossingFinder {
   }
   int PatchOf(const Cell& cell) const { return surface_.piece(cell.piece).patch.value; }
 
-  absl::Status FindParts() {
-    std::set<PatchPair> neighbors;
-    const auto add = [&](PatchId a, PatchId b) { neighbors.insert(std::minmax(a.value, b.value)); };
-    for (const EdgeLink& link : surface_.network.edges) {
-      if (link.neighbor) add(link.self.patch, link.neighbor->patch);
-    }
-    for (const PartLink& link : surface_.network.part_links) add(link.part.patch, link.whole.patch);
+  absl::Status FindParts(bool second) {
     std::vector<Box3> boxes(cells_.size());
     std::vector<double> reach(cells_.size());
     for (std::size_t c = 0; c < cells_.size(); ++c) {
@@ -172,21 +182,21 @@ class CrossingFinder {
     for (std::size_t c = 0; c < cells_.size(); ++c) {
       if (c % 256 == 0) {
         if (absl::Status status = run_.Check(); !status.ok()) return status;
-        run_.Progress("crossings", double(c) / double(cells_.size()));
+        run_.Progress("crossings", 0.5 * (second + double(c) / double(cells_.size())));
       }
       const int patch = PatchOf(cells_[c]);
       int polled = 0;
       tree.Near(boxes[c].Center(), reach[c], [&](int other) {
         if (++polled % 4096 == 0 && run_.Cancelled()) return false;
-        const int second = PatchOf(cells_[At(other)]);
-        if (second <= patch) return true;
+        const int beside = PatchOf(cells_[At(other)]);
+        if (beside <= patch) return true;
         if ((boxes[c].min.array() > boxes[At(other)].max.array()).any() ||
             (boxes[c].max.array() < boxes[At(other)].min.array()).any()) {
           return true;
         }
-        const PatchPair pair(patch, second);
-        const auto &face_a = patches[At(patch)].face, &face_b = patches[At(second)].face;
-        if ((face_a && face_a == face_b) || neighbors.contains(pair)) return true;
+        const PatchPair pair(patch, beside);
+        const auto &face_a = patches[At(patch)].face, &face_b = patches[At(beside)].face;
+        if (face_a && face_a == face_b) return true;
         for (const int s : {0, 1}) {
           for (const int t : {0, 1}) Cross(pair, 2 * static_cast<int>(c) + s, 2 * other + t);
         }
@@ -338,7 +348,7 @@ class CrossingFinder {
       for (const EdgeKey& key : parts[At(k)]) at_end[key].push_back(k);
     }
     std::vector<bool> used(parts.size(), false);
-    PatchCrossing crossing{PatchId{pair.first}, PatchId{pair.second}, {}, 0.0};
+    Found crossing{{PatchId{pair.first}, PatchId{pair.second}, {}, 0.0}, {}, {}};
     const auto walk = [&](int part, const EdgeKey& from) {
       std::vector<EdgeKey> keys = {from};
       for (int now = part; now >= 0 && !used[At(now)];) {
@@ -359,10 +369,11 @@ class CrossingFinder {
     for (int k = 0; k < static_cast<int>(parts.size()); ++k) {
       if (!used[At(k)]) walk(k, parts[At(k)][0]);
     }
-    if (!crossing.curves.empty()) result_.pairs.push_back(std::move(crossing));
+    Found& found = found_[pair];
+    if (crossing.length > found.length + kSame) found = std::move(crossing);
   }
 
-  void AddCurve(const PatchPair& pair, const std::vector<EdgeKey>& keys, PatchCrossing& crossing) {
+  void AddCurve(const PatchPair& pair, const std::vector<EdgeKey>& keys, Found& crossing) {
     const bool closed = keys.size() > 3 && keys.front() == keys.back();
     std::vector<CrossingPoint> points;
     for (std::size_t k = 0; k + (closed ? 1 : 0) < keys.size(); ++k) {
@@ -375,7 +386,10 @@ class CrossingFinder {
     // At least one place where the surfaces pass through each other, inside of both.
     const double away = 4 * result_.depth;
     const auto passes = [&](const CrossingPoint& at) {
-      return Passes(at) && Inside(at.piece_a, at.a, away) && Inside(at.piece_b, at.b, away);
+      if (!Passes(at)) return false;
+      const bool in_a = Inside(at.piece_a, at.a, away), in_b = Inside(at.piece_b, at.b, away);
+      return (in_a && in_b) || (in_b && GoesOnAcross(at.piece_a, at.a, at.piece_b, at.b)) ||
+             (in_a && GoesOnAcross(at.piece_b, at.b, at.piece_a, at.a));
     };
     if (std::ranges::none_of(points, passes)) return;
     std::vector<CrossingPoint> fine;
@@ -392,10 +406,102 @@ class CrossingFinder {
       curve.points.push_back({at.piece_a, at.a.x(), at.a.y(), at.p});
     }
     if (curve.points.size() < 2) return;
+    double length = 0.0;
     for (std::size_t k = 0; k + (closed ? 0 : 1) < curve.points.size(); ++k) {
-      crossing.length += (curve.points[(k + 1) % curve.points.size()].p - curve.points[k].p).norm();
+      length += (curve.points[(k + 1) % curve.points.size()].p - curve.points[k].p).norm();
     }
+    if (length <= kSame) return;  // a point where the surfaces touch
+    crossing.length += length;
     crossing.curves.push_back(std::move(curve));
+    crossing.edges_a.push_back(EdgeAlong(fine, true));
+    crossing.edges_b.push_back(EdgeAlong(fine, false));
+  }
+
+  // The edge of its patch on which all points of a curve lie.
+  std::optional<PatchEdge> EdgeAlong(const std::vector<CrossingPoint>& points, bool on_a) const {
+    std::array<std::size_t, 4> count = {};
+    const auto piece = [&](const CrossingPoint& at) { return on_a ? at.piece_a : at.piece_b; };
+    for (const CrossingPoint& at : points) {
+      for (const PatchEdge& edge : EdgesOf(piece(at), on_a ? at.a : at.b)) ++count[At(edge.edge)];
+    }
+    for (int e = 0; e < 4; ++e) {
+      if (count[At(e)] == points.size()) return PatchEdge{surface_.piece(piece(points.front())).patch, e};
+    }
+    return std::nullopt;
+  }
+
+  // The edges of its patch on which a place lies: two at a corner.
+  std::vector<PatchEdge> EdgesOf(PieceId piece, const Vec2& x) const {
+    const Piece& on = surface_.piece(piece);
+    const Vec2 native = NativeParameters(on, x.x(), x.y());
+    const bool triangle = IsTriangle(surface_.network.model.patches[on.patch.index()].shape);
+    const SurfaceJet jet = Evaluate(surface_, on.patch, native.x(), native.y());
+    const double u = jet.du.norm(), v = jet.dv.norm();
+    // Distances from the edges, mm. The parameters alone say nothing near a pole.
+    const double beyond[4] = {native.y() * v,
+                              triangle ? (1 - native.sum()) * std::max(u, v) : (1 - native.x()) * u,
+                              triangle ? native.x() * u : (1 - native.y()) * v, native.x() * u};
+    std::vector<PatchEdge> edges;
+    for (int e = 0; e < (triangle ? 3 : 4); ++e) {
+      if (beyond[e] <= kCrossingGap) edges.push_back({on.patch, e});
+    }
+    return edges;
+  }
+  // A place on an edge of the first patch: its neighbour there is on the other side of the second patch.
+  bool GoesOnAcross(PieceId piece, const Vec2& x, PieceId other, const Vec2& y) const {
+    const std::vector<PatchEdge> edges = EdgesOf(piece, x);
+    if (edges.size() != 1) return false;
+    const PatchEdge edge = edges[0];
+    const EdgeLink& link = surface_.network.Link(edge);
+    if (!link.neighbor) return false;
+    const auto is_triangle = [&](PatchId patch) {
+      return IsTriangle(surface_.network.model.patches[patch.index()].shape);
+    };
+    const Vec2 native = NativeParameters(surface_.piece(piece), x.x(), x.y());
+    const double t = edge.edge == 0 || (!is_triangle(edge.patch) && edge.edge == 2) ? native.x() : native.y();
+    const SurfaceJet jet = Evaluate(surface_, other, y.x(), y.y());
+    const Vec3 n = jet.du.cross(jet.dv).normalized();
+    const auto inwards = [&](const PatchEdge& of, double at) {
+      constexpr double kStep = 1e-3;  // share of the way to the middle of the patch
+      const Vec2 on = EdgeParameters(surface_.network.model.patches[of.patch.index()].shape, of.edge, at);
+      const Vec2 middle = is_triangle(of.patch) ? Vec2(1.0 / 3, 1.0 / 3) : Vec2(0.5, 0.5);
+      const Vec2 in = on + kStep * (middle - on);
+      const Vec3 p = Evaluate(surface_, of.patch, on.x(), on.y()).p;
+      return n.dot((Evaluate(surface_, of.patch, in.x(), in.y()).p - p).normalized());
+    };
+    const double here = inwards(edge, t);
+    const double there = inwards(*link.neighbor, link.reversed ? 1 - t : t);
+    constexpr double kAcross = 1e-3;  // rad
+    return std::abs(here) > kAcross && std::abs(there) > kAcross && (here < 0) != (there < 0);
+  }
+
+  // A curve along an edge that two patches share may have been found on both. The patch of lower index
+  // keeps it.
+  void DropDoubles() {
+    const auto has = [&](int a, int b, const PatchEdge& edge) {
+      const auto at = found_.find(std::minmax(a, b));
+      if (at == found_.end()) return false;
+      const auto& edges = at->second.a == edge.patch ? at->second.edges_a : at->second.edges_b;
+      return std::ranges::find(edges, std::optional(edge)) != edges.end();
+    };
+    for (auto& [pair, found] : found_) {
+      for (std::size_t k = found.curves.size(); k-- > 0;) {
+        bool drop = false;
+        for (const bool first : {true, false}) {
+          const std::optional<PatchEdge>& edge = first ? found.edges_a[k] : found.edges_b[k];
+          const EdgeLink* link = edge ? &surface_.network.Link(*edge) : nullptr;
+          if (link == nullptr || !link->neighbor || link->neighbor->patch >= edge->patch) continue;
+          drop = drop || has(link->neighbor->patch.value, first ? pair.second : pair.first, *link->neighbor);
+        }
+        if (!drop) continue;
+        const ZeroCurve& curve = found.curves[k];
+        for (std::size_t i = 0; i + (curve.closed ? 0 : 1) < curve.points.size(); ++i)
+          found.length -= (curve.points[(i + 1) % curve.points.size()].p - curve.points[i].p).norm();
+        const auto at = static_cast<std::ptrdiff_t>(k);
+        found.curves.erase(found.curves.begin() + at);
+        found.edges_a.erase(found.edges_a.begin() + at), found.edges_b.erase(found.edges_b.begin() + at);
+      }
+    }
   }
 
   // Points between two, until their chords keep the tolerance.
@@ -419,7 +525,6 @@ class CrossingFinder {
     for (const PatchCrossing& pair : result_.pairs) {
       for (const ZeroCurve& curve : pair.curves) (curve.closed ? result_.curves : open).push_back(curve);
     }
-    constexpr double kSame = 10 * kCrossingGap;
     std::vector<bool> used(open.size(), false);
     const auto next = [&](const Vec3& end, bool& turned) {
       for (std::size_t k = 0; k < open.size(); ++k) {
@@ -464,6 +569,7 @@ class CrossingFinder {
   std::vector<Vec3> points_;
   std::vector<Cell> cells_;
   std::map<PatchPair, std::vector<Part>> parts_;
+  std::map<PatchPair, Found> found_;
 };
 
 }  // namespace

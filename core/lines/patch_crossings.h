@@ -14,8 +14,8 @@ namespace patchmill {
 
 struct CrossingParams {
   double tolerance = 0.01;  // mm: chords of the curves keep it
-  // mm: patches that enter each other by more than twice this are found; a loop that is shallower may be
-  // missed.
+  // mm: patches that enter each other by more than twice this, in a part wider than four times this, are
+  // found; a loop that is shallower or narrower may be missed.
   double depth = 0.01;
 };
 
@@ -39,10 +39,11 @@ struct Crossings3d {
 };
 
 // Boxes of flat cells find places that are near, cells that cross start curves, and Newton steps on both
-// surfaces put every point of a curve onto them. Patches that share an edge, or lie along a part of one, do
-// not cross there: they are not compared. Nor is a patch with itself, nor patches of one face. A patch that
-// only ends on another touches it. Deterministic. CANCELLED and DEADLINE_EXCEEDED from `run`, which is
-// polled every 256 cells.
+// surfaces put every point of a curve onto them. An edge that patches share is no crossing. A patch is not
+// compared with itself, nor are patches of one face. A patch that only ends on another touches it; where it
+// goes on in a neighbour on the other side, their edge is a crossing. Patches that lie on each other do not
+// cross. Two curves nearer to each other than about 4 * depth may be found as one or not at all.
+// Deterministic. CANCELLED and DEADLINE_EXCEEDED from `run`, which is polled every 256 cells.
 absl::StatusOr<Crossings3d> FindPatchCrossings(const Surface& surface, const CrossingParams& params,
                                                const RunContext& run);
 

@@ -115,6 +115,41 @@ TEST(PatchCrossings, WallsThatPassAlongLinesOfTheFloorAreFound) {
   EXPECT_NEAR(Length(Found(Joined(diagonal))), 40.0 * std::sqrt(2.0), 1e-6);
 }
 
+// A part cut by its plane of symmetry: the curves run along borders of patches and of their pieces.
+TEST(PatchCrossings, CurvesAlongSharedEdgesAreFoundOnce) {
+  const auto cut = [](PatchModel model, const Vec3& corner, const Vec3& u, const Vec3& v) {
+    model.patches.push_back(Plane("cut", corner, u, v));
+    return Found(Joined(model), 1e-4);
+  };
+  for (const bool level : {true, false}) {
+    const Vec3 corner = level ? Vec3(-30, -31, 0) : Vec3(-30, 0, -31);
+    const Vec3 v = level ? Vec3(0, 63, 0) : Vec3(0, 0, 63);
+    const Crossings3d ball = cut(Ball(Vec3::Zero(), 10), corner, Vec3(60, 0, 0), v);
+    ASSERT_EQ(ball.curves.size(), 1u);
+    EXPECT_TRUE(ball.curves[0].closed);
+    EXPECT_NEAR(Length(ball), 20 * kPi, 0.01);
+    const Crossings3d ring = cut(testing::Torus(Vec3::Zero(), 10, 3), corner, Vec3(60, 0, 0), v);
+    ASSERT_EQ(ring.curves.size(), 2u);
+    EXPECT_TRUE(ring.curves[0].closed && ring.curves[1].closed);
+    EXPECT_NEAR(Length(ring), level ? 2 * kPi * (13 + 7) : 2 * 2 * kPi * 3, 0.02);
+  }
+}
+
+TEST(PatchCrossings, PatchesThatShareAnEdgeMayCrossElsewhere) {
+  PatchModel model;
+  model.patches = {Plane("floor", Vec3(0, 0, 0), Vec3(10, 0, 0), Vec3(0, 10, 0)), {}};
+  // Leaves the edge x = 0 upwards and comes down through the floor at x = 20/3.
+  model.patches[1] = {"fold", BezierPatch{2,
+                                          1,
+                                          {Vec3(0, 0, 0), Vec3(0, 10, 0), Vec3(5, 0, 10), Vec3(5, 10, 10),
+                                           Vec3(10, 0, -10), Vec3(10, 10, -10)},
+                                          {}}};
+  const Crossings3d found = Found(Joined(model));
+  ASSERT_EQ(found.curves.size(), 1u);
+  EXPECT_NEAR(Length(found), 10.0, 1e-6);
+  for (const SurfacePoint& at : found.curves[0].points) EXPECT_NEAR(at.p.x(), 20.0 / 3, 1e-6);
+}
+
 TEST(PatchCrossings, BodiesAreNamedOnce) {
   PatchModel model = Ball(Vec3::Zero(), 10);
   const std::size_t first = model.patches.size();
