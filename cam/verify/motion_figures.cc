@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "cam/limits/upper_cylinders.h"
 #include "core/base/status.h"
@@ -10,8 +11,9 @@ namespace patchmill {
 
 namespace {
 
-constexpr double kRounding = 2e-3;   // mm; rounding dominates the direction of shorter moves
-constexpr double kTraceable = 0.02;  // mm; rounding to four decimals turns this length by up to 0.25 degrees
+constexpr double kRounding = 2e-3;        // mm; rounding dominates the direction of shorter moves
+constexpr double kTraceable = 0.02;       // mm; rounding to 1e-4 mm turns this length by up to 0.25 degrees
+constexpr double kTraceableTicks = 20.0;  // the same where the last digit is worth more
 constexpr double kSteepSlack = Radians(0.5);  // added to kSteepDescent because of rounding
 constexpr int kGrid = 256;                    // squares along the longer side of the plan
 
@@ -126,7 +128,9 @@ constexpr double kFeedDigits = 5e-5;  // mm/min, rounding of F words to four dec
 // helix is as steep as its moves.
 class DescentWatch {
  public:
-  explicit DescentWatch(double plunge_feed) : plunge_feed_(plunge_feed) {}
+  // `tick`: what the last digit of the program's coordinates is worth, mm.
+  DescentWatch(double plunge_feed, double tick)
+      : plunge_feed_(plunge_feed), traceable_(std::max(kTraceable, kTraceableTicks * tick)), tick_(tick) {}
 
   // Adds the move with this index. Returns how many moves, this one last, are a descent that is steeper than
   // allowed; 0 if none is.
@@ -141,8 +145,11 @@ class DescentWatch {
     drop_ -= d.z();
     along_ += Xy(d).norm();
     ++count_;
-    if (std::hypot(drop_, along_) < kTraceable) return 0;
-    const int steep = std::atan2(drop_, along_) > kSteepDescent + kSteepSlack ? count_ : 0;
+    const double length = std::hypot(drop_, along_);
+    if (length < traceable_) return 0;
+    // Both ends are off by half of the last digit at most, down and in plan.
+    const double slack = std::max(kSteepSlack, std::numbers::sqrt2 * tick_ / length);
+    const int steep = std::atan2(drop_, along_) > kSteepDescent + slack ? count_ : 0;
     Restart();
     return steep;
   }
@@ -153,16 +160,36 @@ class DescentWatch {
     count_ = 0;
   }
 
-  double plunge_feed_;
+  double plunge_feed_, traceable_, tick_;
   int count_ = 0;                    // moves since the last test
   double drop_ = 0.0, along_ = 0.0;  // mm, down and in plan, since the last test
 };
+
+// What the last digit of the program's coordinates is worth, mm: the largest of the usual steps that the
+// ends of all lines are multiples of. Places along an arc are none.
+double LastDigit(const ProgramMotion& motion) {
+  constexpr double kInch = 25.4, kSmallest = 1e-4, kSame = 1e-7;  // mm
+  for (const double tick : {1e-3 * kInch, 1e-2, 1e-4 * kInch, 1e-3, 1e-5 * kInch}) {
+    bool all = true;
+    for (std::size_t k = 0; k < motion.moves.size() && all; ++k) {
+      const ProgramMove& move = motion.moves[k];
+      if (move.to_above || move.from_anywhere) continue;
+      if (k + 1 < motion.moves.size() && motion.moves[k + 1].line == move.line) continue;
+      for (int c = 0; c < 3; ++c) {
+        const double x = move.to[c];
+        all = all && std::abs(x - tick * std::round(x / tick)) <= kSame;
+      }
+    }
+    if (all) return tick;
+  }
+  return kSmallest;
+}
 
 }  // namespace
 
 MotionFigures MeasureMotion(const ProgramMotion& motion, const Tool& tool) {
   MotionFigures figures;
-  DescentWatch watch(tool.plunge_feed);
+  DescentWatch watch(tool.plunge_feed, LastDigit(motion));
   int line = 0;  // of the last feed move
   for (std::size_t i = 0; i < motion.moves.size(); ++i) {
     const ProgramMove& move = motion.moves[i];

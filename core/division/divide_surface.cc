@@ -83,6 +83,7 @@ class Divider {
     const std::vector<int> us = NonEmptySpans(patch.knots_u, patch.degree_u);
     const std::vector<int> vs = NonEmptySpans(patch.knots_v, patch.degree_v);
     spans_u_ = static_cast<int>(us.size()), spans_v_ = static_cast<int>(vs.size());
+    degree_u_ = patch.degree_u, degree_v_ = patch.degree_v;
     knots_ = {DistinctKnots(patch.knots_u, us), DistinctKnots(patch.knots_v, vs)};
     for (const int ku : us) {
       for (const int kv : vs) rectangles_.push_back({Restricted(patch, ku, kv)});
@@ -412,25 +413,46 @@ class Divider {
     }
   }
 
+  // Shares of a cell at which its distance is measured: in each part between knots, as many as the degree
+  // needs.
+  std::vector<double> SharesOf(const std::vector<double>& lines, const std::vector<double>& knots, int cell,
+                               int degree) const {
+    const double from = lines[At(cell)], to = lines[At(cell + 1)];
+    std::vector<double> ends = {from};
+    for (const double t : knots) {
+      if (t > from && t < to) ends.push_back(t);
+    }
+    ends.push_back(to);
+    std::vector<double> shares = Parts(ends, std::max(kDistanceSteps, degree + 2));
+    for (double& t : shares) t = (t - from) / (to - from);
+    return shares;
+  }
+
   // Distance of a patch from the surface, from the places of equal parameters on.
   CellDistance DistanceOf(int number) const {
     const Cell& cell = cells_[At(number)];
     const PatchShape& shape = result_.joined.model.patches[At(number)].shape;
+    const std::vector<double> us = SharesOf(lines_.u, knots_.u, cell.i, degree_u_);
+    const std::vector<double> vs = SharesOf(lines_.v, knots_.v, cell.j, degree_v_);
     CellDistance most;
     const auto take = [](double& to, double distance) { to = std::max(to, distance); };
-    for (int a = 0; a <= kDistanceSteps; ++a) {
-      for (int b = 0; b <= kDistanceSteps; ++b) {
-        const double u = a / double(kDistanceSteps), v = b / double(kDistanceSteps);
-        if (cell.corners.size() == 4) {
-          const bool side_u = b == 0 || b == kDistanceSteps, side_v = a == 0 || a == kDistanceSteps;
+    if (cell.corners.size() == 4) {
+      for (const double u : us) {
+        for (const double v : vs) {
+          const bool side_u = v == vs.front() || v == vs.back(), side_v = u == us.front() || u == us.back();
           take(side_u   ? most.sides_u
                : side_v ? most.sides_v
                         : most.inside,
                FromSurface(cell, Position(shape, u, v), u, v));
-          continue;
         }
-        if (a + b > kDistanceSteps) continue;
+      }
+      return most;
+    }
+    const int steps = static_cast<int>(std::max(us.size(), vs.size())) - 1;
+    for (int a = 0; a <= steps; ++a) {
+      for (int b = 0; a + b <= steps; ++b) {
         // The places of the corners, mixed by their shares.
+        const double u = a / double(steps), v = b / double(steps);
         Vec2 at = Vec2::Zero();
         const double share[3] = {1 - u - v, u, v};
         for (int k = 0; k < 3; ++k) {
@@ -474,6 +496,7 @@ class Divider {
   std::array<bool, 2> pole_u_ = {}, pole_v_ = {};  // the sides u = 0, 1 and v = 0, 1 are points
   bool closed_u_ = false, closed_v_ = false;
   GridLines knots_, lines_;
+  int degree_u_ = 1, degree_v_ = 1;
   int nu_ = 0, nv_ = 0;
   std::vector<CellDistance> distances_;
   DividedSurface result_;

@@ -25,8 +25,9 @@ struct Division {
 struct DividedSurface {
   CurveNetwork network;
   JoinedNetwork joined;
-  Diagnostics findings;       // DIVISION_COARSE, and those of joining
-  double max_distance = 0.0;  // mm, of the joined patches from the surface, at 25 places of each
+  Diagnostics findings;  // DIVISION_COARSE, and those of joining
+  double max_distance =
+      0.0;  // mm, of the joined patches from the surface, at 25 places or more of each knot rectangle
 };
 
 // Each face gets corner positions, cubic edges, normals and twists of the surface. So a polynomial surface

@@ -280,6 +280,22 @@ TEST(VerifyMotion, DescentsCutIntoSmallStepsAreStillSteep) {
   }
 }
 
+// Four decimals of an inch turn short moves by more than the slack for millimetres.
+TEST(VerifyMotion, RoundingOfInchesIsNoSteepDescent) {
+  const Surface surface = SurfaceOf(Plane(5.0));
+  Tool tool = Ball(3.0);
+  tool.plunge_feed = 100;
+  const auto judged = [&](double angle_deg) {
+    std::string text = "G20 G90\nG53 G0 Z0 S9 M3\nG0 X0 Y0\nZ0.04\nF35\n";
+    const double step = 0.06 / 25.4, slope = std::tan(Radians(angle_deg));
+    for (int i = 1; i * step * slope <= 0.0393; ++i)
+      text += fmt::format("G1 X{:.4f} Z{:.4f}\n", i * step, 0.04 - i * step * slope);
+    return Find(Judged(surface, tool, text + kEnd, Params(1.0)), "STEEP_DESCENT");
+  };
+  EXPECT_EQ(judged(29.9), nullptr);
+  EXPECT_NE(judged(38.0), nullptr);
+}
+
 // Clear of the stock a descent may be as fast as any feed; where it meets the allowance it may not.
 TEST(VerifyMotion, DescentsThroughAirMayBeFast) {
   const Surface surface = SurfaceOf(Plane(5.0));

@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include <Eigen/LU>
 #include <gtest/gtest.h>
 
 #include "core/joining/continuity.h"
 #include "core/joining/network_findings.h"
+#include "core/math/bernstein.h"
 #include "core/network/patch_network.h"
 #include "core/patch/outline_surface.h"
 
@@ -128,6 +130,51 @@ TEST(DivideSurface, TheFewestFacesKeepTheToleranceAndCreases) {
   const DividedSurface folded = Divided(roof, {.tolerance = 5.0, .lines = DivisionLines::kFewest});
   EXPECT_EQ(folded.joined.model.patches.size(), 2u);
   EXPECT_LE(folded.max_distance, 1e-9);
+}
+
+// One control point of many is out of the plane, and one span bulges between places of equal steps.
+TEST(DivideSurface, SeesWhatLiesBetweenFewSamples) {
+  std::vector<double> knots = {0, 0, 0};
+  for (int k = 0; k <= 32; ++k) knots.push_back(k);
+  knots.insert(knots.end(), 3, 32.0);
+  BsplinePatch patch;
+  patch.degree_u = patch.degree_v = 3;
+  patch.knots_u = patch.knots_v = knots;
+  for (int i = 0; i < 35; ++i) {
+    for (int j = 0; j < 35; ++j) patch.points.emplace_back(3.0 * i, 3.0 * j, i == 13 && j == 21 ? 5.0 : 0.0);
+  }
+  const DividedSurface bump = Divided(patch, {.tolerance = 0.02, .lines = DivisionLines::kFewest});
+  EXPECT_LE(bump.max_distance, 0.02);
+  double top = 0.0;
+  for (const Patch& p : bump.joined.model.patches) {
+    for (int i = 0; i <= 20; ++i) {
+      for (int j = 0; j <= 20; ++j) top = std::max(top, Position(p.shape, i / 20.0, j / 20.0).z());
+    }
+  }
+  EXPECT_NEAR(top, 5.0 * 4 / 9, 0.03);  // 2/3 each way
+  // Degree 10 with zeros of second order at 0, 1/4, 1/2, 3/4 and 1.
+  BsplinePatch wave;
+  wave.degree_u = 10, wave.degree_v = 1;
+  wave.knots_u.assign(11, 0.0), wave.knots_u.insert(wave.knots_u.end(), 11, 1.0);
+  wave.knots_v = {0, 0, 1, 1};
+  const auto height = [](double t) {
+    return 5e5 * std::pow(t * (1 - t) * (t - 0.25) * (t - 0.5) * (t - 0.75), 2);
+  };
+  Eigen::Matrix<double, 11, 11> basis;
+  Eigen::Matrix<double, 11, 1> values;
+  for (int k = 0; k <= 10; ++k) {
+    double row[kMaxBasisDegree + 1];
+    AllBernstein(10, k / 10.0, row);
+    for (int j = 0; j <= 10; ++j) basis(k, j) = row[j];
+    values[k] = height(k / 10.0);
+  }
+  const Eigen::Matrix<double, 11, 1> z = basis.fullPivLu().solve(values);
+  for (int i = 0; i <= 10; ++i) {
+    for (const double y : {0.0, 20.0}) wave.points.emplace_back(10.0 * i, y, z[i]);
+  }
+  const DividedSurface divided = Divided(wave, {.tolerance = 1e-2});
+  EXPECT_LE(divided.max_distance, 1e-2);
+  EXPECT_GT(divided.joined.model.patches.size(), 4u);
 }
 
 TEST(DivideSurface, AHigherDegreeIsMetWithinTheTolerance) {
