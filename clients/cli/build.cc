@@ -10,6 +10,7 @@
 #include "clients/cli/files_in_json.h"
 #include "clients/cli/input_file.h"
 #include "clients/cli/job_options.h"
+#include "clients/cli/length_units.h"
 #include "clients/cli/model_file.h"
 #include "clients/cli/text.h"
 #include "patchmill/v1/model_service.grpc.pb.h"
@@ -18,14 +19,11 @@
 namespace patchmill::cli {
 namespace {
 
-const std::map<std::string, v1::LengthUnit> kUnits = {
-    {"mm", v1::LENGTH_UNIT_MILLIMETER}, {"inch", v1::LENGTH_UNIT_INCH}, {"m", v1::LENGTH_UNIT_METER}};
-
 struct BuildOptions {
   CommonOptions common;
   std::vector<std::string> inputs;
   std::string output, network, length_unit;
-  bool divide = false, fewest = false;
+  bool divide = false, fewest = false, all_findings = false;
   std::vector<int> parts;
   std::optional<double> tolerance, crease_angle;
   std::vector<double> direction;
@@ -96,14 +94,10 @@ absl::Status ReadSections(const std::vector<std::string>& inputs, v1::BuildModel
 }
 
 absl::Status ReadInputs(const BuildOptions& options, v1::BuildModelRequest& request) {
-  request.set_length_unit(v1::LENGTH_UNIT_MILLIMETER);
   if (options.inputs.size() > 1) return ReadSections(options.inputs, request);
   const std::string& input = options.inputs[0];
   const std::string ending = EndingOf(input);
-  if (ending != "obj" && ending != "curves") {
-    request.clear_length_unit();
-    return ReadJson(input, request);
-  }
+  if (ending != "obj" && ending != "curves") return ReadJson(input, request);
   absl::StatusOr<std::string> bytes = ReadWholeFile(input);
   if (!bytes.ok()) return bytes.status();
   (ending == "obj" ? *request.mutable_mesh()->mutable_content()
@@ -150,11 +144,13 @@ absl::Status SetOptions(const BuildOptions& options, v1::BuildModelRequest& requ
   for (const double x : options.direction) request.mutable_crossing()->add_direction(x);
   if (options.refuse_free_ends) request.mutable_crossing()->set_refuse_free_ends(true);
   if (!options.length_unit.empty()) {
-    if (request.length_unit() != v1::LENGTH_UNIT_UNSPECIFIED &&
-        request.length_unit() != v1::LENGTH_UNIT_MILLIMETER) {
-      return absl::InvalidArgumentError("--length-unit: the file states its own unit");
+    if (request.length_unit() != v1::LENGTH_UNIT_UNSPECIFIED) {
+      return absl::InvalidArgumentError(
+          fmt::format("--length-unit: {} states its own unit", options.inputs[0]));
     }
-    request.set_length_unit(kUnits.at(options.length_unit));
+    request.set_length_unit(LengthUnits().at(options.length_unit));
+  } else if (request.has_mesh() || !request.crossing().strokes().empty() || options.inputs.size() > 1) {
+    request.set_length_unit(v1::LENGTH_UNIT_MILLIMETER);  // these files state none
   }
   return absl::OkStatus();
 }
@@ -182,7 +178,7 @@ absl::Status Run(const BuildOptions& options, InterruptWatch& watch) {
   if (!response.ok()) return response.status();
   const std::string& input = options.inputs[0];
   if (!options.common.quiet) {
-    for (const std::string& line : FindingLines(response->diagnostics(), false))
+    for (const std::string& line : FindingLines(response->diagnostics(), options.all_findings))
       fmt::print(stderr, "  {}\n", line);
   }
   if (const int errors = CountErrors(response->diagnostics()); errors > 0) {
@@ -235,7 +231,8 @@ Command AddBuild(CLI::App& app) {
   app.add_option("--parts", options->parts,
                  "U,V: divide each rectangle between knots into this many parts at least, 1 to 64")
       ->delimiter(',')
-      ->expected(2);
+      ->expected(2)
+      ->check(CLI::Range(1, 64));
   AddNumber(app, "--tolerance", options->tolerance,
             "mm. Curves nearer than this meet (default: a thousandth of the diagonal); or distance of a "
             "divided network "
@@ -253,9 +250,11 @@ Command AddBuild(CLI::App& app) {
   app.add_flag("--refuse-free-ends", options->refuse_free_ends,
                "ends of curves beyond their last meeting are errors; default: they are cut off");
   std::vector<std::string> units;
-  for (const auto& [name, unit] : kUnits) units.push_back(name);
+  for (const auto& [name, unit] : LengthUnits()) units.push_back(name);
   app.add_option("--length-unit", options->length_unit, "unit of files that state none; default mm")
       ->check(CLI::IsMember(units));
+  app.add_flag("--all-findings", options->all_findings,
+               "list every finding; default: three of each code, and how many more there are");
   AddCommonOptions(app, options->common);
   return [options](InterruptWatch& watch) { return Run(*options, watch); };
 }

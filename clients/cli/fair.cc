@@ -8,6 +8,7 @@
 #include "clients/cli/commands.h"
 #include "clients/cli/fair_options.h"
 #include "clients/cli/job_options.h"
+#include "clients/cli/length_units.h"
 #include "clients/cli/output_file.h"
 #include "clients/cli/text.h"
 #include "patchmill/v1/model_service.grpc.pb.h"
@@ -87,7 +88,7 @@ absl::Status RunSections(FairOptions options, InterruptWatch& watch) {
   }
   if (const absl::Status writable = CheckWritable({&output}); !writable.ok()) return writable;
   v1::BuildModelRequest outline;
-  outline.set_length_unit(v1::LENGTH_UNIT_MILLIMETER);
+  outline.set_length_unit(LengthUnits().at(options.length_unit));
   for (std::size_t k = 0; k < requests.size(); ++k) {
     absl::StatusOr<v1::FairCurveResponse> response =
         Call(options.common, watch, &v1::ModelService::Stub::FairCurve, requests[k]);

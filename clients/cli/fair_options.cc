@@ -11,6 +11,7 @@
 
 #include "clients/cli/input_file.h"
 #include "clients/cli/job_options.h"
+#include "clients/cli/length_units.h"
 #include "clients/cli/text.h"
 
 namespace patchmill::cli {
@@ -152,6 +153,11 @@ void AddFairOptions(CLI::App& app, FairOptions& options) {
                  "faired, and "
                  "the border stays")
       ->check(CLI::Range(2, 50'000));
+  std::vector<std::string> units;
+  for (const auto& [name, unit] : LengthUnits()) units.push_back(name);
+  app.add_option("--length-unit", options.length_unit,
+                 "unit of the points, which the outline of several files states; default mm")
+      ->check(CLI::IsMember(units));
   app.add_flag("--fit", options.fit, "only fit the curve through the points; no point moves");
   CLI::Option* polyline =
       app.add_option("--polyline", options.polyline, "write the faired curve as a polyline: .csv or .dat");

@@ -18,6 +18,7 @@ struct FairOptions {
   std::string points;              // the one that is faired
   std::string output, polyline, preview;
   std::string axes = "xyz", band = "0.2%", band_rule = "least", stop = "signs";
+  std::string length_unit = "mm";  // of the points, stated in the outline that several files make
   std::vector<std::string> locks;
   std::string start_direction, end_direction;
   std::optional<double> tolerance;

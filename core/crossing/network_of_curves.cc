@@ -87,7 +87,11 @@ class NetworkMaker {
     }
     if (result_.network.faces.empty()) {
       result_.findings.push_back(MakeError(
-          "NO_FACE", "the curves close no face; a larger tolerance lets curves meet that lie apart"));
+          "NO_FACE",
+          fmt::format(
+              "the curves close no face. A larger tolerance lets curves meet that lie apart, a smaller one "
+              "keeps vertices apart that are nearer than three times of it; now it is {:g} mm",
+              options_.tolerance)));
       return std::move(result_);
     }
     TellMoved();

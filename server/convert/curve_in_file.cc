@@ -33,7 +33,7 @@ absl::StatusOr<BezierChain> CurveIn(const v1::CurveInFile& file, double unit) {
     BsplineCurve curve{from.degree(), {from.knots().begin(), from.knots().end()}, {}};
     if (from.points_size() % 3 != 0) return CurveFault("has a curve whose points are not packed x y z");
     for (int i = 0; i + 2 < from.points_size(); i += 3) {
-      curve.points.emplace_back(from.points(i), from.points(i + 1), from.points(i + 2));
+      curve.points.push_back(unit * Vec3(from.points(i), from.points(i + 1), from.points(i + 2)));
       if (!curve.points.back().allFinite()) return CurveFault("has a number that is not finite");
     }
     absl::StatusOr<BezierChain> chain = ChainOf(Curve(std::move(curve)));

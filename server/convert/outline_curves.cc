@@ -90,10 +90,11 @@ absl::StatusOr<std::vector<Curve>> CurvesOf(const Curves& curves, double unit, c
   return list;
 }
 
-absl::StatusOr<std::vector<DrawnCurve>> DrawnCurvesOf(const v1::CrossingCurves& crossing, double unit) {
+absl::StatusOr<DrawnCurves> DrawnCurvesOf(const v1::CrossingCurves& crossing, double unit) {
   PM_ASSIGN_OR_RETURN(const std::vector<Curve> curves, CurvesOf(crossing.curves(), unit, "crossing"));
   FieldErrors errors;
-  std::vector<DrawnCurve> list;
+  DrawnCurves drawn;
+  std::vector<DrawnCurve>& list = drawn.curves;
   for (std::size_t k = 0; k < curves.size(); ++k) {
     const std::string& id = crossing.curves(static_cast<int>(k)).id();
     RequireBytes(errors, fmt::format("crossing.curves[{}].id", k), id, limits::kMaxIdBytes);
@@ -123,15 +124,29 @@ absl::StatusOr<std::vector<DrawnCurve>> DrawnCurvesOf(const v1::CrossingCurves& 
       std::vector<Vec3> points = (*strokes)[k];
       for (Vec3& p : points) p *= unit;
       absl::StatusOr<BezierChain> chain = ChainThrough(points);
-      if (chain.ok()) list.push_back({fmt::format("stroke {}", k + 1), *std::move(chain)});
+      if (chain.ok()) {
+        list.push_back({fmt::format("stroke {}", k + 1), *std::move(chain)});
+      } else {
+        Where where;
+        where.point = points.front();
+        where.field = fmt::format("crossing.strokes[{}]", k);
+        drawn.findings.push_back(MakeWarning(
+            "STROKE_OF_ONE_POINT",
+            fmt::format("stroke {} {}; it is left out", k + 1, std::string(chain.status().message())),
+            std::move(where)));
+      }
     }
   }
   PM_RETURN_IF_ERROR(errors.ToStatus());
+  if (list.empty() && !drawn.findings.empty()) {
+    errors.Add("crossing.strokes", fmt::format("have one point each: {} of them", drawn.findings.size()));
+    return errors.ToStatus();
+  }
   if (list.empty() || list.size() > kMaxDrawnCurves) {
     errors.Add("crossing.curves", fmt::format("are {}; must be 1 to {}", list.size(), kMaxDrawnCurves));
   }
   PM_RETURN_IF_ERROR(errors.ToStatus());
-  return list;
+  return drawn;
 }
 
 }  // namespace patchmill

@@ -6,6 +6,7 @@
 
 #include <absl/status/statusor.h>
 
+#include "core/base/diagnostic.h"
 #include "core/crossing/drawn_curve.h"
 #include "patchmill/v1/outline.pb.h"
 
@@ -16,8 +17,12 @@ namespace patchmill {
 absl::StatusOr<std::vector<Curve>> CurvesOf(
     const google::protobuf::RepeatedPtrField<v1::OutlineCurve>& curves, double unit, const std::string& at);
 
-// The curves of `crossing` with their ids, those of its strokes after them. Strokes of one place are left
-// out.
-absl::StatusOr<std::vector<DrawnCurve>> DrawnCurvesOf(const v1::CrossingCurves& crossing, double unit);
+struct DrawnCurves {
+  std::vector<DrawnCurve> curves;
+  Diagnostics findings;  // STROKE_OF_ONE_POINT, a warning: such strokes are left out
+};
+
+// The curves of `crossing` with their ids, those of its strokes after them.
+absl::StatusOr<DrawnCurves> DrawnCurvesOf(const v1::CrossingCurves& crossing, double unit);
 
 }  // namespace patchmill

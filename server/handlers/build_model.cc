@@ -69,9 +69,12 @@ absl::StatusOr<CrossingOptions> OptionsOf(const v1::CrossingCurves& crossing,
   for (const DrawnCurve& curve : curves) {
     for (const Vec3& p : curve.chain.points) box.Add(p);
   }
-  constexpr double kDefaultShare = 1e-3, kMostShare = 0.1, kLeastMm = 1e-6;
+  // Many curves lie near to each other, and neighbours must not count as one.
+  const double default_share =
+      std::min(1e-3, 0.25 / static_cast<double>(std::max<std::size_t>(1, curves.size())));
+  constexpr double kMostShare = 0.1, kLeastMm = 1e-6;
   CrossingOptions options;
-  options.tolerance = crossing.has_tolerance_mm() ? crossing.tolerance_mm() : kDefaultShare * box.Diagonal();
+  options.tolerance = crossing.has_tolerance_mm() ? crossing.tolerance_mm() : default_share * box.Diagonal();
   Require(errors, "crossing.tolerance_mm", options.tolerance,
           options.tolerance >= kLeastMm && options.tolerance <= kMostShare * box.Diagonal(),
           fmt::format("in [{:g}, {:.4g}], a tenth of the diagonal of the curves' box", kLeastMm,
@@ -98,11 +101,13 @@ absl::StatusOr<CrossingOptions> OptionsOf(const v1::CrossingCurves& crossing,
 
 absl::Status BuildCrossing(const v1::BuildModelRequest& request, double unit, const RunContext& run,
                            v1::BuildModelResponse* response) {
-  PM_ASSIGN_OR_RETURN(const std::vector<DrawnCurve> curves, DrawnCurvesOf(request.crossing(), unit));
+  PM_ASSIGN_OR_RETURN(DrawnCurves drawn, DrawnCurvesOf(request.crossing(), unit));
+  const std::vector<DrawnCurve>& curves = drawn.curves;
   PM_ASSIGN_OR_RETURN(const CrossingOptions options, OptionsOf(request.crossing(), curves, unit));
   absl::StatusOr<NetworkOfCurves> made = MakeNetworkOfCurves(curves, options, run);
   if (!made.ok()) return WithFieldPrefix("crossing.", made.status());
-  Diagnostics findings = made->findings;
+  Diagnostics findings = std::move(drawn.findings);
+  findings.insert(findings.end(), made->findings.begin(), made->findings.end());
   if (!HasError(findings)) {
     findings.insert(findings.end(), made->joined.findings.begin(), made->joined.findings.end());
     Answer(made->network, made->joined, response);

@@ -170,5 +170,52 @@ TEST(CliBuild, NamesTheFileThatAnEdgeLacks) {
   }
 }
 
+TEST(CliBuild, UnitsAreStatedOnceAndHoldForFairedCurvesToo) {
+  const TempDir out;
+  for (int k = 0; k < 3; ++k) {
+    std::string points;
+    for (int i = 0; i <= 6; ++i) points += fmt::format("{},{},{}\n", i, 2 * k, 0.1 * i * (6 - i));
+    out.Write(fmt::format("s{}.csv", k), points);
+    ASSERT_EQ(
+        Patchmill({"fair", out / fmt::format("s{}.csv", k), "--fit", "-o", out / fmt::format("s{}.json", k)})
+            .status,
+        0);
+  }
+  const auto box = [&](std::vector<std::string> command) {
+    command.insert(command.begin(), "build");
+    command.insert(command.end(), {"-o", out / "skin.json"});
+    const Finished run = Patchmill(command);
+    EXPECT_EQ(run.status, 0) << run.err;
+    return Patchmill({"check", out / "skin.json"}).out;
+  };
+  const std::string inches = "to X 152.400 Y 101.600";
+  EXPECT_THAT(box({out / "s0.csv", out / "s1.csv", out / "s2.csv", "--length-unit", "inch"}),
+              HasSubstr(inches));
+  EXPECT_THAT(box({out / "s0.json", out / "s1.csv", out / "s2.json", "--length-unit", "inch"}),
+              HasSubstr(inches));
+  ASSERT_EQ(Patchmill({"fair", out / "s0.csv", out / "s1.csv", out / "s2.csv", "--fit", "--length-unit",
+                       "inch", "-o", out / "outline.json"})
+                .status,
+            0);
+  EXPECT_THAT(box({out / "outline.json"}), HasSubstr(inches));
+  const Finished twice =
+      Patchmill({"build", out / "outline.json", "--length-unit", "mm", "-o", out / "x.json"});
+  EXPECT_EQ(twice.status, 2);
+  EXPECT_THAT(twice.err, HasSubstr("states its own unit"));
+}
+
+TEST(CliBuild, NamesStrokesOfOnePointAndListsAllFindings) {
+  const TempDir out;
+  out.Write("square.curves", std::string(kStrokes) + "v 1\n3 4 5\n");
+  const Finished run = Patchmill(
+      {"build", out / "square.curves", "-o", out / "net.json", "--tolerance", "0.01", "--all-findings"});
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_THAT(run.err, HasSubstr("STROKE_OF_ONE_POINT: stroke 5"));
+  EXPECT_THAT(run.err, Not(HasSubstr("more; --all-findings")));
+  out.Write("point.curves", "v 1\n3 4 5\n");
+  EXPECT_THAT(Patchmill({"build", out / "point.curves", "-o", out / "x.json"}).err,
+              HasSubstr("have one point each"));
+}
+
 }  // namespace
 }  // namespace patchmill
