@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Runs one of the long tests of docs/long_tests.md, each in less than an hour, and writes its row of that page.
 #   scripts/long_tests.sh NAME
-# NAME: soak, clients, requests, whole, asan, asan_passes, asan_jobs, tsan, random, posts, certificates, fuzz, container, coverage, linuxcnc_times, freecad.
+# NAME: soak, clients, many, requests, whole, asan, asan_passes, asan_jobs, tsan, random, posts, certificates, fuzz, container, coverage, linuxcnc_times, freecad.
 # LIMIT: minutes after which a test is ended, 60 unless it is set; more for a machine that does other work beside.
 # PATCHMILL_BIN: of freecad, a folder with built programs; unset: they are built.
 # SEED: of soak, random, posts and certificates; another one each day unless it is set. MINUTES: of soak, 30 unless it is set.
@@ -30,6 +30,10 @@ soak() {
 clients() {  # 64 clients of one server
   build release patchmilld
   tests/service/mixed_clients.py build/release/bin/patchmilld --seed "$seed"
+}
+many() {  # three servers behind nginx, two hundred jobs
+  build release patchmill patchmilld
+  PATCHMILL_LONG=1 tests/operations/run.sh build/release/bin test_many
 }
 requests() {  # ten thousand random requests, under the sanitizers
   build asan service_tests
@@ -118,7 +122,7 @@ freecad() {  # the add-on in Debian's FreeCAD
 case "$name" in
   soak) command="MINUTES=$minutes SEED=$seed scripts/long_tests.sh soak" ;;
   clients | requests | random | posts | certificates) command="SEED=$seed scripts/long_tests.sh $name" ;;
-  whole | asan | asan_passes | asan_jobs | tsan | fuzz | container | coverage | linuxcnc_times | freecad) command="scripts/long_tests.sh $name" ;;
+  many | whole | asan | asan_passes | asan_jobs | tsan | fuzz | container | coverage | linuxcnc_times | freecad) command="scripts/long_tests.sh $name" ;;
   *)
     sed -n '2,7s/^# \?//p' "$0" >&2
     exit 2

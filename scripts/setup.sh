@@ -18,7 +18,7 @@ build_packages=(
 test_packages=(
   libgtest-dev libgmock-dev libbenchmark-dev librapidcheck-dev libcgal-dev
   python3 clang-format-14 linuxcnc-uspace librsvg2-bin python3-grpcio python3-protobuf chromium
-  python3-numpy python3-yaml curl python3-build python3-setuptools python3-wheel python3-venv mypy flake8 openssl libfaketime
+  python3-numpy python3-yaml curl python3-build python3-setuptools python3-wheel python3-venv mypy flake8 openssl libfaketime nginx-light
 )
 cad_packages=(libocct-data-exchange-dev)  # Open CASCADE reads STEP and IGES; without it patchmill-import is not built
 case "$what" in

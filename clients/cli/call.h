@@ -11,11 +11,13 @@ absl::StatusOr<Response> Call(const CommonOptions& options, InterruptWatch& watc
                               grpc::Status (Stub::*method)(grpc::ClientContext*, const Request&, Response*),
                               Request request) {
   Response response;
-  const absl::Status status = SendRequest(options, watch, request, [&](const Connection& connection) {
-    CallScope call(options, watch);
-    Stub stub(connection.channel);
-    return (stub.*method)(call.context(), request, &response);
-  });
+  const absl::Status status =
+      SendRequest(options, watch, request, [&](const Connection& connection, const CommonOptions& left) {
+        CallScope call(left, watch);
+        response.Clear();
+        Stub stub(connection.channel);
+        return (stub.*method)(call.context(), request, &response);
+      });
   if (!status.ok()) return status;
   return response;
 }

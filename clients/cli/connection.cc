@@ -59,6 +59,15 @@ std::string Worded(const grpc::Status& status) {
   return lines;
 }
 
+// How gRPC begins its message when it has not come as far as a connection.
+bool HasNoConnection(const std::string& message) {
+  for (const char* begin :
+       {"failed to connect", "DNS resolution failed", "Failed to pick", "connections to all"}) {
+    if (absl::StartsWith(message, begin)) return true;
+  }
+  return false;
+}
+
 // Why a server did not do a call that is right: it cannot be reached, was lost, shuts down, has too much to
 // do or is another server. Empty for any other reason.
 std::string ServerTrouble(const grpc::Status& status, const std::string& server) {
@@ -75,12 +84,9 @@ std::string ServerTrouble(const grpc::Status& status, const std::string& server)
   if (status.error_code() == grpc::StatusCode::UNIMPLEMENTED)
     return fmt::format("{} has no such call: it is no server of Patchmill, or one of another version",
                        server);
-  if (status.error_code() != grpc::StatusCode::UNAVAILABLE) return "";
-  // How gRPC begins its message when it has not come as far as a connection.
-  for (const char* begin :
-       {"failed to connect", "DNS resolution failed", "Failed to pick", "connections to all"}) {
-    if (absl::StartsWith(message, begin)) return fmt::format("no server answers at {}: {}", server, message);
-  }
+  const Loss loss = LossOf(status);
+  if (loss == Loss::kNone) return "";
+  if (loss == Loss::kUnreachable) return fmt::format("no server answers at {}: {}", server, message);
   if (message == "Cancelling all calls")  // gRPC's word for the end of the time to drain
     return fmt::format("{} shut down before the call was done", server);
   return fmt::format("the connection to {} broke while the call ran: {}", server, message);
@@ -165,11 +171,27 @@ absl::StatusOr<Connection> Connect(const CommonOptions& options, KeepModels keep
   grpc::ChannelArguments arguments;
   arguments.SetMaxReceiveMessageSize(static_cast<int>(kMaxMessageBytes));
   arguments.SetMaxSendMessageSize(static_cast<int>(kMaxMessageBytes));
+  // How soon a call that is made again may look for a server that was gone.
+  arguments.SetInt(GRPC_ARG_INITIAL_RECONNECT_BACKOFF_MS, 200);
+  arguments.SetInt(GRPC_ARG_MAX_RECONNECT_BACKOFF_MS, 2000);
   connection.channel = grpc::CreateCustomChannel(options.server, *credentials, arguments);
   return connection;
 }
 
 std::string ReasonOf(const grpc::Status& status) { return InfoOf(status).reason(); }
+
+Loss LossOf(const grpc::Status& status) {
+  const std::string reason = ReasonOf(status);
+  if (reason == "DRAINING") return Loss::kDraining;
+  if (!reason.empty()) return Loss::kNone;
+  const std::string& message = status.error_message();
+  if (status.error_code() == grpc::StatusCode::UNAVAILABLE)
+    return HasNoConnection(message) ? Loss::kUnreachable : Loss::kBroken;
+  // A proxy that has passed on a part of the answer has no other way to say that the rest will not come.
+  const bool is_reset =
+      status.error_code() == grpc::StatusCode::INTERNAL && absl::StrContains(message, "RST_STREAM");
+  return is_reset ? Loss::kBroken : Loss::kNone;
+}
 
 CallScope::CallScope(const CommonOptions& options, InterruptWatch& watch) : watch_(watch) {
   if (options.timeout) {
@@ -177,6 +199,7 @@ CallScope::CallScope(const CommonOptions& options, InterruptWatch& watch) : watc
                           std::chrono::milliseconds(static_cast<std::int64_t>(1000.0 * *options.timeout)));
   }
   if (!options.token.empty()) context_.AddMetadata("authorization", "Bearer " + options.token);
+  if (!options.request_id.empty()) context_.AddMetadata("x-request-id", options.request_id);
   watch_.Attach(&context_);
 }
 

@@ -20,6 +20,7 @@ struct CommonOptions {
   std::string server;  // HOST:PORT; empty: inside this process
   std::string ca_file, cert_file, key_file;
   std::string token;              // sent as a bearer token; empty: none
+  std::string request_id;         // the name of the call in the log of the server; empty: none
   int threads = 0;                // 0: all
   std::optional<double> timeout;  // s
   bool quiet = false;
@@ -38,8 +39,8 @@ absl::StatusOr<Connection> Connect(const CommonOptions& options, KeepModels keep
 // The token in a file: its first line. INVALID_ARGUMENT with the reason where there is none.
 absl::StatusOr<std::string> ReadTokenFile(const std::string& path);
 
-// The context of a call. It has the token and the deadline, and an interrupt cancels it while this object
-// lives. It has to end before results are written.
+// The context of a call. It has the token, the name and the deadline, and an interrupt cancels it while this
+// object lives. It has to end before results are written.
 class CallScope {
  public:
   CallScope(const CommonOptions& options, InterruptWatch& watch);
@@ -56,6 +57,15 @@ absl::Status FromGrpc(const grpc::Status& status, const CommonOptions& options, 
 
 // The reason in the details of an error; empty without details.
 std::string ReasonOf(const grpc::Status& status);
+
+// How a call can end without an answer of its own.
+enum class Loss {
+  kNone,         // it has an answer, or an error that another try would have, too
+  kUnreachable,  // no server answers: the call has not begun
+  kDraining,     // the server ends, and has not begun the call
+  kBroken,       // the server, a proxy or the connection ended while the call ran
+};
+Loss LossOf(const grpc::Status& status);
 
 // 0 for OK; 2 for wrong usage and unreadable input; 1 for any other error.
 int ExitStatus(const absl::Status& status);

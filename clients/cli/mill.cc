@@ -310,19 +310,33 @@ void PrintSummary(const MillOptions& options, const v1::Report& report) {
   }
 }
 
+// What an earlier try has left.
+void Forget(Received& received) {
+  received.program.Set("");
+  received.plan.Set("");
+  received.scene.program.clear();
+  received.scene.regions.Clear();
+  received.scene.mesh.clear();
+  received.scene.paths.clear();
+  received.report.Clear();
+  received.complete = false;
+}
+
 absl::Status Receive(const CommonOptions& options, v1::GenerateProgramRequest request, InterruptWatch& watch,
                      Received& received) {
-  const absl::Status status = SendRequest(options, watch, request, [&](const Connection& connection) {
-    CallScope call(options, watch);
-    const auto stub = v1::ToolpathService::NewStub(connection.channel);
-    ProgressBar bar(options.quiet);
-    const auto reader = stub->GenerateProgram(call.context(), request);
-    v1::GenerateProgramResponse response;
-    while (reader->Read(&response)) Take(response, bar, received);
-    grpc::Status ended = reader->Finish();
-    bar.Clear();
-    return ended;
-  });
+  const absl::Status status =
+      SendRequest(options, watch, request, [&](const Connection& connection, const CommonOptions& left) {
+        CallScope call(left, watch);
+        Forget(received);
+        const auto stub = v1::ToolpathService::NewStub(connection.channel);
+        ProgressBar bar(options.quiet);
+        const auto reader = stub->GenerateProgram(call.context(), request);
+        v1::GenerateProgramResponse response;
+        while (reader->Read(&response)) Take(response, bar, received);
+        grpc::Status ended = reader->Finish();
+        bar.Clear();
+        return ended;
+      });
   if (!status.ok()) return status;
   return received.complete ? absl::OkStatus()
                            : absl::DataLossError("the answer ended without a report; nothing was written");

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <string>
+#include <thread>
 #include <utility>
 
+#include <fmt/format.h>
 #include <grpcpp/grpcpp.h>
 
 #include "clients/cli/text.h"
@@ -15,17 +17,16 @@ namespace {
 
 constexpr std::size_t kPiece = std::size_t{1} << 20;
 
-absl::Status Unusable(const v1::UploadModelResponse& response) {
+grpc::Status Unusable(const v1::UploadModelResponse& response) {
   std::string message = "the model cannot be used";
   for (const v1::Diagnostic& finding : response.diagnostics())
     if (finding.severity() == v1::SEVERITY_ERROR) message += "\n  " + Line(finding);
-  return absl::InvalidArgumentError(message);
+  return {grpc::StatusCode::INVALID_ARGUMENT, message};
 }
 
-}  // namespace
-
-absl::StatusOr<std::string> Upload(const CommonOptions& options, InterruptWatch& watch,
-                                   const Connection& connection, const v1::ModelFile& file) {
+grpc::Status Upload(const CommonOptions& options, InterruptWatch& watch, const Connection& connection,
+                    const LargeModel& model) {
+  const v1::ModelFile& file = model.file;
   const std::string& content = file.content();
   v1::UploadModelRequest message;
   v1::UploadStart& start = *message.mutable_start();
@@ -45,10 +46,26 @@ absl::StatusOr<std::string> Upload(const CommonOptions& options, InterruptWatch&
     open = writer->Write(message);
   }
   writer->WritesDone();
-  const grpc::Status status = writer->Finish();
-  if (!status.ok()) return FromGrpc(status, options, watch);
+  grpc::Status status = writer->Finish();
+  if (!status.ok()) return status;
   if (response.model_sha256().empty()) return Unusable(response);
-  return response.model_sha256();
+  model.source->set_model_sha256(std::move(*response.mutable_model_sha256()));
+  return status;
+}
+
+}  // namespace
+
+grpc::Status UploadAll(const CommonOptions& options, InterruptWatch& watch, const Connection& connection,
+                       const std::vector<LargeModel>& models) {
+  for (const LargeModel& model : models) {
+    if (grpc::Status status = Upload(options, watch, connection, model); !status.ok()) return status;
+  }
+  return grpc::Status::OK;
+}
+
+void WaitForNextTry(const CommonOptions& options, const absl::Status& why, std::chrono::milliseconds wait) {
+  if (!options.quiet) fmt::print(stderr, "patchmill: {}; trying again\n", std::string(why.message()));
+  std::this_thread::sleep_for(wait);
 }
 
 bool LacksModel(const grpc::Status& status) {

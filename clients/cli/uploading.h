@@ -1,11 +1,13 @@
 // Requests whose models may be too large for one message.
 #pragma once
 
-#include <string>
+#include <chrono>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include "clients/cli/connection.h"
+#include "clients/cli/retrying.h"
 #include "patchmill/v1/model.pb.h"
 
 namespace patchmill::cli {
@@ -29,11 +31,6 @@ std::vector<v1::ModelSource*> ModelsOf(Request& request) {
   return models;
 }
 
-// Sends a model in pieces (ModelService.UploadModel), and returns its digest. INVALID_ARGUMENT if it cannot
-// be used, with what is wrong with it.
-absl::StatusOr<std::string> Upload(const CommonOptions& options, InterruptWatch& watch,
-                                   const Connection& connection, const v1::ModelFile& file);
-
 // Whether a server has forgotten the model that a request names, or never had it: another one may have taken
 // the upload.
 bool LacksModel(const grpc::Status& status);
@@ -44,10 +41,19 @@ struct LargeModel {
   v1::ModelFile file;
 };
 
-// Connects to the service and calls `send(connection)`, which makes the call. If the request is too large for
-// one message, its models are uploaded first and the request names them by their digests. Where the server
-// lacks one, all are uploaded again, up to three times in all. INVALID_ARGUMENT if the request is too large
-// even then. Any error of the server is worded for a user.
+// Sends the models in pieces (ModelService.UploadModel), and names them in the request by their digests.
+// INVALID_ARGUMENT if one of them cannot be used, with what is wrong with it.
+grpc::Status UploadAll(const CommonOptions& options, InterruptWatch& watch, const Connection& connection,
+                       const std::vector<LargeModel>& models);
+
+// Says that a call is made again, and waits.
+void WaitForNextTry(const CommonOptions& options, const absl::Status& why, std::chrono::milliseconds wait);
+
+// Connects to the service and calls `send(connection, options)`, which makes the call; `send` may be called
+// again after it failed, and forgets what it has received. If the request is too large for one message, its
+// models are uploaded first and the request names them by their digests. Where the server lacks one, all are
+// uploaded again, up to three times in all. Where the server is lost, the call is made again as Tries allows.
+// INVALID_ARGUMENT if the request is too large even then. Any error of the server is worded for a user.
 template <class Request, class Send>
 absl::Status SendRequest(const CommonOptions& options, InterruptWatch& watch, Request& request,
                          const Send& send) {
@@ -60,15 +66,20 @@ absl::Status SendRequest(const CommonOptions& options, InterruptWatch& watch, Re
     for (v1::ModelSource* source : ModelsOf(request))
       if (source->has_file()) large.push_back({source, std::move(*source->mutable_file())});
   }
-  for (int upload = 1;; ++upload) {
-    for (const LargeModel& model : large) {
-      absl::StatusOr<std::string> digest = Upload(options, watch, *connection, model.file);
-      if (!digest.ok()) return digest.status();
-      model.source->set_model_sha256(*std::move(digest));
+  Tries tries(options);
+  for (int uploads_left = kUploads;;) {
+    const CommonOptions left = tries.Left();
+    grpc::Status status = UploadAll(left, watch, *connection, large);
+    if (status.ok()) {
+      if (absl::Status small = CheckRequestSize(request.ByteSizeLong()); !small.ok()) return small;
+      status = send(*connection, left);
     }
-    if (absl::Status small = CheckRequestSize(request.ByteSizeLong()); !small.ok()) return small;
-    const grpc::Status status = send(*connection);
-    if (large.empty() || upload == kUploads || !LacksModel(status)) return FromGrpc(status, options, watch);
+    if (status.ok()) return absl::OkStatus();
+    if (!large.empty() && LacksModel(status) && --uploads_left > 0) continue;
+    const std::optional<std::chrono::milliseconds> wait =
+        watch.interrupted() ? std::nullopt : tries.WaitAfter(status);
+    if (!wait) return FromGrpc(tries.Reported(status), options, watch);
+    WaitForNextTry(options, FromGrpc(status, options, watch), *wait);
   }
 }
 

@@ -241,22 +241,34 @@ void Take(v1::VerifyProgramResponse& response, VerifyAnswer& received) {
   received.complete = true;
 }
 
+// What an earlier try has left.
+void Forget(VerifyAnswer& received) {
+  received.map_csv.Set("");
+  received.map_png.Set("");
+  received.scene.mesh.clear();
+  received.scene.paths.clear();
+  received.report.Clear();
+  received.complete = false;
+}
+
 absl::Status Receive(const CommonOptions& options, v1::VerifyProgramRequest request, InterruptWatch& watch,
                      VerifyAnswer& received) {
-  const absl::Status status = SendRequest(options, watch, request, [&](const Connection& connection) {
-    CallScope call(options, watch);
-    const auto stub = v1::ToolpathService::NewStub(connection.channel);
-    const auto reader = stub->VerifyProgram(call.context(), request);
-    ProgressBar bar(options.quiet);
-    v1::VerifyProgramResponse response;
-    while (reader->Read(&response)) {
-      if (response.has_progress()) bar.Show(response.progress());
-      Take(response, received);
-    }
-    grpc::Status ended = reader->Finish();
-    bar.Clear();
-    return ended;
-  });
+  const absl::Status status =
+      SendRequest(options, watch, request, [&](const Connection& connection, const CommonOptions& left) {
+        CallScope call(left, watch);
+        Forget(received);
+        const auto stub = v1::ToolpathService::NewStub(connection.channel);
+        const auto reader = stub->VerifyProgram(call.context(), request);
+        ProgressBar bar(options.quiet);
+        v1::VerifyProgramResponse response;
+        while (reader->Read(&response)) {
+          if (response.has_progress()) bar.Show(response.progress());
+          Take(response, received);
+        }
+        grpc::Status ended = reader->Finish();
+        bar.Clear();
+        return ended;
+      });
   if (!status.ok()) return status;
   return received.complete ? absl::OkStatus() : absl::DataLossError("the answer ended without a report");
 }

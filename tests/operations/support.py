@@ -57,10 +57,11 @@ class Folder:
 class Server:
     """A patchmilld on a free port of this machine."""
 
-    def __init__(self, *flags: str, env: dict[str, str] | None = None, listen: str | None = "127.0.0.1:0") -> None:
+    def __init__(self, *flags: str, env: dict[str, str] | None = None, listen: str | None = "127.0.0.1:0",
+                 program: pathlib.Path | None = None) -> None:
         self._log = tempfile.NamedTemporaryFile()
         listening = ["--listen", listen] if listen else []
-        self.process = subprocess.Popen([PATCHMILLD, *listening, *flags], stderr=self._log, env={**os.environ, **(env or {})})
+        self.process = subprocess.Popen([program or PATCHMILLD, *listening, *flags], stderr=self._log, env={**os.environ, **(env or {})})
         wait_until(lambda: self.process.poll() is not None or self._port() is not None, 30.0)
         if self._port() is None:
             raise AssertionError(self.log())

@@ -9,6 +9,7 @@ import tempfile
 import threading
 import time
 import unittest
+from concurrent import futures
 
 import grpc
 import patchmill as pm
@@ -50,6 +51,41 @@ class InBackground:
         return self.error
 
 
+UNAVAILABLE = (grpc.StatusCode.UNAVAILABLE, "Socket closed", "")
+RESET = (grpc.StatusCode.INTERNAL, "Received RST_STREAM with error code 2", "")
+DRAINING = (grpc.StatusCode.UNAVAILABLE, "the server is shutting down", "DRAINING")
+
+
+class Troubled:
+    """A server that ends its first calls so, and answers every later one with an empty message."""
+
+    def __init__(self, troubles):
+        self.names, self._troubles = [], troubles
+        self._server = grpc.server(futures.ThreadPoolExecutor(1), handlers=[self])
+        self.address = f"127.0.0.1:{self._server.add_insecure_port('127.0.0.1:0')}"
+        self._server.start()
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self._server.stop(None).wait()
+
+    def service(self, call):
+        self.names.append(dict(call.invocation_metadata).get("x-request-id"))
+        return grpc.unary_unary_rpc_method_handler(self.answer)
+
+    def answer(self, _, context):
+        if len(self.names) <= len(self._troubles):
+            code, text, reason = self._troubles[len(self.names) - 1]
+            if reason:
+                status = status_pb2.Status()
+                status.details.add().Pack(status_pb2.ErrorInfo(reason=reason))
+                context.set_trailing_metadata([("grpc-status-details-bin", status.SerializeToString())])
+            context.abort(code, text)
+        return b""
+
+
 class Trouble(unittest.TestCase):
     def test_a_server_that_is_killed_in_a_job_is_lost(self):
         with daemon() as server, pm.Client(server.address) as client:
@@ -57,6 +93,29 @@ class Trouble(unittest.TestCase):
             server.signal(signal.SIGKILL)
             self.assertIsInstance(job.ended_by(), pm.ServerLostError)
             self.assertIn("broke while the call ran", str(job.error))
+
+    def test_a_lost_call_is_made_again_under_the_same_name(self):
+        lost = pm.ServerLostError
+        for troubles, ends, calls in [([UNAVAILABLE], None, 2), ([RESET, UNAVAILABLE], None, 3), ([UNAVAILABLE] * 9, lost, 3)]:
+            with Troubled(troubles) as server, pm.Client(server.address, retry=pm.Retry(first_wait_s=0.01)) as client:
+                if ends is None:
+                    client.posts()
+                else:
+                    with self.assertRaisesRegex(ends, "broke while the call ran"):
+                        client.posts()
+            self.assertEqual(len(server.names), calls)
+            self.assertEqual(len(set(server.names)), 1)
+            self.assertTrue(server.names[0])
+
+    def test_a_server_that_drains_is_asked_until_another_one_answers(self):
+        with Troubled([DRAINING] * 9) as server, pm.Client(server.address, retry=pm.Retry(first_wait_s=0.01)) as client:
+            client.posts()
+        self.assertEqual(len(server.names), 10)
+        retry = pm.Retry(first_wait_s=0.01, draining_s=0.0)
+        with Troubled([DRAINING] * 9) as server, pm.Client(server.address, retry=retry) as client:
+            with self.assertRaises(pm.ServerDrainingError):
+                client.posts()
+        self.assertEqual(len(server.names), 4)
 
     def test_a_busy_server_is_tried_again(self):
         with daemon("--max-jobs", "1", "--max-queue", "0") as server, pm.Client(server.address, retry=NO_RETRY) as client:
@@ -258,8 +317,6 @@ class Secured(unittest.TestCase):
         class Listen(grpc.GenericRpcHandler):
             def service(self, call):
                 heard.append(dict(call.invocation_metadata).get("authorization"))
-
-        from concurrent import futures
 
         server = grpc.server(futures.ThreadPoolExecutor(1), handlers=[Listen()])
         port = server.add_insecure_port("127.0.0.1:0")

@@ -64,8 +64,10 @@ def _unavailable(code: str, details: str, where: str) -> errors.CallError:
 def ended_by_server(where: str, has_begun: bool) -> errors.CallError:
     """The error for a call that was cancelled, but not by this client."""
     if has_begun:
-        return errors.ServerLostError(f"The server at {where} ended the call: it shuts down, or the answer was read too slowly.",
+        lost = errors.ServerLostError(f"The server at {where} ended the call: it shuts down, or the answer was read too slowly.",
                                       "CANCELLED")
+        lost.may_retry = False
+        return lost
     return errors.ServerDrainingError(f"The server at {where} ended the call before it began: it shuts down.", "CANCELLED")
 
 
@@ -85,6 +87,8 @@ def error_of(status: Any, where: str) -> errors.CallError:
     if status.code() == grpc.StatusCode.UNIMPLEMENTED:
         return errors.NotAvailableError(f"The server at {where} has no such call: it is no server of Patchmill, or one of another "
                                         "version.", code)
-    if status.code() == grpc.StatusCode.UNAVAILABLE:
+    # A proxy that has passed on a part of the answer has no other way to say that the rest will not come.
+    is_reset = status.code() == grpc.StatusCode.INTERNAL and "RST_STREAM" in details
+    if status.code() == grpc.StatusCode.UNAVAILABLE or is_reset:
         return _unavailable(code, details, where)
     return _OF_CODE.get(code, errors.CallError)(details or code, code)

@@ -4,6 +4,7 @@ from __future__ import annotations
 import asyncio
 import functools
 import inspect
+import secrets
 import threading
 from collections.abc import Awaitable, Callable
 from types import TracebackType
@@ -18,7 +19,7 @@ from ._connection import CHANNEL_OPTIONS, Tls, Token, check_address, check_token
 from ._run import run_once, run_once_async
 from ._server import LazyServer, Program
 from .errors import JobCancelledError, ModelNotCachedError, PatchmillError, ServerLostError, ServerUnreachableError, TemporaryError
-from .retry import Deadline, Retry
+from .retry import Deadline, Retry, Tries
 
 P = ParamSpec("P")
 T = TypeVar("T")
@@ -73,8 +74,8 @@ class _Target:
             return secure(self._address, credentials(self._tls), options=CHANNEL_OPTIONS)
         return insecure(self._address, options=CHANNEL_OPTIONS)
 
-    def metadata(self) -> list[tuple[str, str]]:
-        return metadata(self._token)
+    def metadata(self, request_id: str) -> list[tuple[str, str]]:
+        return [*metadata(self._token), ("x-request-id", request_id)]
 
     def explained(self, error: PatchmillError) -> PatchmillError:
         """The error, or what has become of a server of one's own."""
@@ -84,7 +85,9 @@ class _Target:
         if not ended:
             return error
         log = self._own.running.log().strip().splitlines()[-3:]
-        return ServerLostError("\n  ".join([f"{ended}. The next call starts it anew. Its last words:", *log]), error.code)
+        lost = ServerLostError("\n  ".join([f"{ended}. The next call starts it anew. Its last words:", *log]), error.code)
+        lost.may_retry = False  # the call may be why it ended
+        return lost
 
     def forget_ended(self) -> bool:
         """Whether a server of one's own had ended; the next call starts another one."""
@@ -110,7 +113,7 @@ class Client:
     tls: the connection is encrypted. None: it is not.
     token: sent as `authorization: Bearer TOKEN` with every call, or a function that returns it. Never sent
         unencrypted beyond this machine.
-    retry: how often a call is tried while the server is busy, drains or cannot be reached.
+    retry: how often a call is tried while the server is busy, drains, cannot be reached or is lost.
     program, threads: of the server that the client starts: patchmilld (None: the environment variable
         PATCHMILLD, or the one on the path), and threads of one job (0: all).
 
@@ -148,11 +151,11 @@ class Client:
 
     def run(self, call: Call[T]) -> T:
         """Makes a call, and makes it again where its error is temporary."""
-        deadline, request, waits = Deadline(call.timeout_s), call.request, self._target.retry.waits()
-        uploaded = False
+        deadline, request, tries = Deadline(call.timeout_s), call.request, Tries(self._target.retry)
+        request_id, uploaded = secrets.token_hex(8), False
         while True:
             try:
-                return run_once(self._connected(), call, request, self._target.metadata(), deadline.left_s(), self._target.where)
+                return run_once(self._connected(), call, request, self._target.metadata(request_id), deadline.left_s(), self._target.where)
             except ModelNotCachedError:
                 if call.inline is None or request is not call.request:
                     raise
@@ -165,9 +168,10 @@ class Client:
                 explained = self._target.explained(error)
                 if self._target.forget_ended():
                     self._disconnect()
-                wait_s = next(waits, None) if isinstance(explained, TemporaryError) else None
+                wait_s = tries.wait_after(explained)
                 if wait_s is None or not deadline.allows(wait_s):
-                    raise explained from None
+                    raise tries.raised(explained) from None
+                uploaded = False  # another server may answer
                 if (call.cancel.wait(wait_s) if call.cancel is not None else _sleep(wait_s)):
                     raise JobCancelledError("The call was cancelled.", "CANCELLED", "CANCELLED") from None
 
@@ -243,12 +247,13 @@ class AsyncClient:
 
     async def run(self, call: Call[T]) -> T:
         """Makes a call, and makes it again where its error is temporary."""
-        deadline, request, waits = Deadline(call.timeout_s), call.request, self._target.retry.waits()
-        uploaded = False
+        deadline, request, tries = Deadline(call.timeout_s), call.request, Tries(self._target.retry)
+        request_id, uploaded = secrets.token_hex(8), False
         while True:
             try:
                 channel = await self._connected()
-                return await run_once_async(channel, call, request, self._target.metadata(), deadline.left_s(), self._target.where)
+                sent = self._target.metadata(request_id)
+                return await run_once_async(channel, call, request, sent, deadline.left_s(), self._target.where)
             except ModelNotCachedError:
                 if call.inline is None or request is not call.request:
                     raise
@@ -261,9 +266,10 @@ class AsyncClient:
                 explained = await asyncio.to_thread(self._target.explained, error)
                 if await asyncio.to_thread(self._target.forget_ended):
                     await self._disconnect()
-                wait_s = next(waits, None) if isinstance(explained, TemporaryError) else None
+                wait_s = tries.wait_after(explained)
                 if wait_s is None or not deadline.allows(wait_s):
-                    raise explained from None
+                    raise tries.raised(explained) from None
+                uploaded = False  # another server may answer
                 if call.cancel is None:
                     await asyncio.sleep(wait_s)
                 elif await asyncio.to_thread(call.cancel.wait, wait_s):

@@ -144,5 +144,10 @@ class ServerUnreachableError(TemporaryError):
 
 
 class ServerLostError(CallError):
-    """The connection broke while the call ran. The job is not tried again by itself: if it was what ended the
-    server, it would end the next one."""
+    """The connection broke while the call ran. Client tries the call again, but less often: if the call was
+    what ended the server, it would end the next one.
+
+    may_retry: whether Client does; not where its own server ended, or where the answer was read too slowly.
+    """
+
+    may_retry = True

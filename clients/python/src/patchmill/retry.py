@@ -3,30 +3,70 @@ from __future__ import annotations
 
 import random
 import time
-from collections.abc import Iterator
 from dataclasses import dataclass
+
+from .errors import PatchmillError, ServerDrainingError, ServerLostError, ServerUnreachableError, TemporaryError
 
 
 @dataclass(frozen=True)
 class Retry:
-    """How often a call is tried while the server is busy, drains or cannot be reached.
+    """How often a call is tried while the server is busy, drains, cannot be reached or is lost.
 
-    A call that was lost while it ran is not tried again. Every job is without side effects, so trying again
-    is always safe.
+    Every job is without side effects, and an upload or a removal does the same twice, so trying again is
+    always safe. All tries of a call have one name in the logs of the servers.
 
-    attempts: largest number of tries; 1: none but the first.
+    attempts: largest number of tries; 1: none but the first. Tries at a server that drains do not count.
     first_wait_s: time before the second try. Each further one waits twice as long, all with a random share.
     longest_wait_s: longest time between two tries.
+    broken_attempts: largest number of tries of a call that is lost while it runs. Such a call may be the
+        reason why its server ended, and would end the next one.
+    draining_s: how long a call is tried again while its server drains. 0: such tries count as all others.
     """
 
     attempts: int = 4
     first_wait_s: float = 0.5
     longest_wait_s: float = 10.0
+    broken_attempts: int = 3
+    draining_s: float = 60.0
 
-    def waits(self) -> Iterator[float]:
-        """Times to wait before the second try, the third, and so on."""
-        for k in range(self.attempts - 1):
-            yield min(self.longest_wait_s, self.first_wait_s * 2**k) * random.uniform(0.75, 1.25)
+
+class Tries:
+    """The tries of one call, and the error to raise after the last one."""
+
+    LONGEST_WAIT_DRAINING_S = 2.0
+
+    def __init__(self, retry: Retry) -> None:
+        self._retry = retry
+        self._made, self._waits, self._broken = 1, 0, 0
+        self._drains_until: float | None = None
+        self._lost: ServerLostError | None = None
+
+    def wait_after(self, error: PatchmillError) -> float | None:
+        """Time to wait before the next try, after one that ended with this error. None: there is none."""
+        retry = self._retry
+        if isinstance(error, ServerLostError):
+            self._lost = error
+            self._broken += 1
+            if not error.may_retry or self._broken >= retry.broken_attempts:
+                return None
+        elif not isinstance(error, TemporaryError):
+            return None
+        wait_s = min(retry.longest_wait_s, retry.first_wait_s * 2.0**self._waits) * random.uniform(0.75, 1.25)
+        if isinstance(error, ServerDrainingError) and retry.attempts > 1:
+            if self._drains_until is None:
+                self._drains_until = time.monotonic() + retry.draining_s
+            wait_s = min(wait_s, self.LONGEST_WAIT_DRAINING_S)
+            if time.monotonic() + wait_s < self._drains_until:
+                return wait_s
+        if self._made >= retry.attempts:
+            return None
+        self._made += 1
+        self._waits += 1
+        return wait_s
+
+    def raised(self, last: PatchmillError) -> PatchmillError:
+        """The error of the try that broke, if nobody was reached since; else the last one."""
+        return self._lost if self._lost is not None and isinstance(last, ServerUnreachableError) else last
 
 
 class Deadline:
