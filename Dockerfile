@@ -1,22 +1,63 @@
 # The Patchmill service. Build: docker build -t patchmill .
 # Run with TLS:  docker run -p 50051:50051 -v DIR:/tls:ro patchmill --cert /tls/server.pem --key /tls/server.key   (docs/operations.md)
-FROM debian:bookworm-slim AS build
+#
+# BASE: the image that this one begins with; name it with its digest (debian:bookworm-slim@sha256:...), so that the same sources give
+#   the same image. It has to be Debian 12.
+# PROGRAMS: "build" compiles here; "prebuilt" takes patchmill and patchmilld from the folder programs/ of the context, as
+#   scripts/container_test.sh lays it out. They have to be built on Debian 12, too.
+# VERSION, REVISION, CREATED: for the labels. BASE_DIGEST: the digest of BASE, for its label.
+ARG BASE=debian:bookworm-slim
+ARG PROGRAMS=build
+
+FROM ${BASE} AS build
 WORKDIR /src
 COPY scripts/setup.sh scripts/setup.sh
 RUN scripts/setup.sh build
 COPY . .
 RUN cmake --preset release -DPATCHMILL_TESTS=OFF -DPATCHMILL_BENCH=OFF \
  && cmake --build --preset release --target patchmill patchmilld \
- && strip build/release/bin/patchmill build/release/bin/patchmilld
+ && mkdir /programs && cp build/release/bin/patchmill build/release/bin/patchmilld /programs/
 
-FROM debian:bookworm-slim
+FROM ${BASE} AS prebuilt
+COPY programs/ /programs/
+
+FROM ${PROGRAMS} AS programs
+
+FROM ${BASE} AS runtime
 RUN apt-get update -qq \
  && apt-get install -y -qq --no-install-recommends libgrpc++1.51 libprotobuf32 libabsl20220623 libtbb12 libfmt9 libspdlog1.10 libprometheus-cpp-pull1.0 libopenmesh1 \
- && rm -rf /var/lib/apt/lists/* \
- && useradd --system --uid 10001 --no-create-home patchmill
-COPY --from=build /src/build/release/bin/patchmill /src/build/release/bin/patchmilld /usr/local/bin/
+ && rm -rf /var/lib/apt/lists/* /var/log/* /var/cache/ldconfig/* \
+ && useradd --uid 10001 --no-create-home --shell /usr/sbin/nologin patchmill
+
+# What the image consists of. The package database is copied before the tools that write the document are installed.
+FROM runtime AS described
+RUN cp -r /var/lib/dpkg /image \
+ && apt-get update -qq \
+ && apt-get install -y -qq --no-install-recommends python3 binutils libeigen3-dev libstb-dev libcli11-dev fonts-dejavu-core
+COPY --from=programs /programs/ /programs/
+COPY CMakeLists.txt /src/
+COPY scripts/sbom.py /src/scripts/
+RUN strip /programs/patchmill /programs/patchmilld \
+ && python3 /src/scripts/sbom.py --image /image -o /sbom.spdx.json /programs/patchmill /programs/patchmilld
+
+FROM runtime
+ARG BASE
+ARG BASE_DIGEST=""
+ARG VERSION=""
+ARG REVISION=""
+ARG CREATED=""
+LABEL org.opencontainers.image.title="Patchmill" \
+      org.opencontainers.image.description="Verified tool paths for free-form surfaces, as a service" \
+      org.opencontainers.image.licenses="Apache-2.0" \
+      org.opencontainers.image.version="${VERSION}" \
+      org.opencontainers.image.revision="${REVISION}" \
+      org.opencontainers.image.created="${CREATED}" \
+      org.opencontainers.image.base.name="${BASE}" \
+      org.opencontainers.image.base.digest="${BASE_DIGEST}"
+COPY --from=described /programs/patchmill /programs/patchmilld /usr/local/bin/
+COPY --from=described /sbom.spdx.json /usr/share/doc/patchmill/
 COPY LICENSE THIRD_PARTY.md /usr/share/doc/patchmill/
-USER patchmill
+USER 10001:10001
 EXPOSE 50051
 HEALTHCHECK --interval=10s --timeout=3s --start-period=5s CMD ["patchmilld", "--check-health", "localhost:50051"]
 # Inside a container the service must listen beyond loopback. How it is protected there is for who runs it to say: without

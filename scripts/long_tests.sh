@@ -142,7 +142,7 @@ if [ "${LONG_TESTS_INNER:-}" != "$name" ]; then
     *) result="**failed**, $took min" ;;
   esac
   # What the test says about itself in its last line, where it has one.
-  said=$(grep -E '^(soak|mixed_clients|lines|TOTAL|linuxcnc_times|freecad)' "$log" | tail -1 | tr -s ' |' ' ' || true)
+  said=$(grep -E '^(soak|mixed_clients|container: passed|lines|TOTAL|linuxcnc_times|freecad)' "$log" | tail -1 | tr -s ' |' ' ' || true)
   commit=$(git rev-parse --short HEAD)
   [ -z "$(git status --porcelain --untracked-files=no)" ] || commit="$commit, changed"
   row="| $name | \`$command\` | $commit | $(date +%F) | $result${said:+; $said} |"
