@@ -104,11 +104,18 @@ class File {
   const int descriptor_;
 };
 
-// First part of the names of a caller's answers from one model.
+// First part of the names of a caller's answers.
+std::string PrefixOf(const std::string& caller) {
+  Canonical digest;
+  digest.Add("patchmill files 2").Add(caller);
+  return Hex(digest.Digest()).substr(0, 32) + "-";
+}
+
+// That of its answers from one model.
 std::string PrefixOf(const std::string& caller, const std::string& from) {
   Canonical digest;
-  digest.Add("patchmill files 1").Add(caller).Add(from);
-  return Hex(digest.Digest()).substr(0, 32) + "-";
+  digest.Add("patchmill files of a model 2").Add(caller).Add(from);
+  return PrefixOf(caller) + Hex(digest.Digest()).substr(0, 32) + "-";
 }
 
 }  // namespace
@@ -126,7 +133,7 @@ absl::StatusOr<std::unique_ptr<DiskCache>> DiskCache::Open(const DiskCacheParams
         fmt::format("--cache-dir {}: cannot be written: {}", params.folder, std::strerror(why)));
   }
   std::unique_ptr<DiskCache> cache(new DiskCache(params));
-  cache->Prune();
+  cache->Prune("", params.limit_bytes);
   return cache;
 }
 
@@ -134,10 +141,12 @@ std::string DiskCache::PathOf(const StoreKey& key, const std::string& from) cons
   return fmt::format("{}/{}{}{}", params_.folder, PrefixOf(key.caller, from), Hex(key.digest), kEnding);
 }
 
-void DiskCache::Put(const StoreKey& key, const std::string& from, const Messages& messages) {
+void DiskCache::Put(const StoreKey& key, const std::string& from, const Messages& messages,
+                    std::optional<std::int64_t> share) {
   static std::atomic<std::uint64_t> number{0};
   const std::string packed = Pack(messages), path = PathOf(key, from);
-  if (static_cast<std::int64_t>(packed.size()) > params_.limit_bytes / 4) return;
+  const std::int64_t most = std::min(params_.limit_bytes, share.value_or(params_.limit_bytes));
+  if (static_cast<std::int64_t>(packed.size()) > most / 4) return;
   const std::string part =
       fmt::format("{}/.{}.{}{}", params_.folder, getpid(), number.fetch_add(1), kTemporary);
   bool written = false;
@@ -150,7 +159,8 @@ void DiskCache::Put(const StoreKey& key, const std::string& from, const Messages
     unlink(part.c_str());
     return;
   }
-  Prune();
+  if (share) Prune(PrefixOf(key.caller), *share);
+  Prune("", params_.limit_bytes);
 }
 
 std::optional<Messages> DiskCache::Find(const StoreKey& key, const std::string& from) {
@@ -181,7 +191,7 @@ void DiskCache::ForgetModel(const std::string& caller, const std::string& from) 
   }
 }
 
-void DiskCache::Prune() {
+void DiskCache::Prune(const std::string& prefix, std::int64_t limit_bytes) {
   struct Kept {
     fs::path path;
     fs::file_time_type written;
@@ -203,13 +213,13 @@ void DiskCache::Prune() {
     const auto lifetime = ending == kTemporary ? std::chrono::seconds(3600) : params_.lifetime;
     if (now - written > lifetime) {
       unlink(at->path().c_str());
-    } else if (ending == kEnding) {
+    } else if (ending == kEnding && at->path().filename().string().starts_with(prefix)) {
       kept.push_back({at->path(), written, size});
       bytes += size;
     }
   }
   std::sort(kept.begin(), kept.end(), [](const Kept& a, const Kept& b) { return a.written < b.written; });
-  for (auto file = kept.begin(); file != kept.end() && bytes > params_.limit_bytes; ++file) {
+  for (auto file = kept.begin(); file != kept.end() && bytes > limit_bytes; ++file) {
     unlink(file->path.c_str());
     bytes -= file->bytes;
   }

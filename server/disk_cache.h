@@ -29,8 +29,10 @@ class DiskCache {
   // INVALID_ARGUMENT if the folder is none, or cannot be written. It is made if it does not exist.
   static absl::StatusOr<std::unique_ptr<DiskCache>> Open(const DiskCacheParams& params);
 
-  // `from`: digest of the model that the answer was made from; may be empty.
-  void Put(const StoreKey& key, const std::string& from, const Messages& messages);
+  // `from`: digest of the model that the answer was made from; may be empty. `share`: the most bytes that
+  // the files of the caller may have together; beyond them its oldest files are removed.
+  void Put(const StoreKey& key, const std::string& from, const Messages& messages,
+           std::optional<std::int64_t> share = {});
   std::optional<Messages> Find(const StoreKey& key, const std::string& from);
   // Removes the answers of a caller that were made from a model.
   void ForgetModel(const std::string& caller, const std::string& from);
@@ -38,7 +40,9 @@ class DiskCache {
  private:
   explicit DiskCache(DiskCacheParams params) : params_(std::move(params)) {}
   std::string PathOf(const StoreKey& key, const std::string& from) const;
-  void Prune();  // by lifetime, then by size, oldest first
+  // Removes old files, then the oldest of those whose names begin with `prefix`, until these have at most so
+  // many bytes.
+  void Prune(const std::string& prefix, std::int64_t limit_bytes);
 
   const DiskCacheParams params_;
   std::mutex mutex_;  // of Prune

@@ -14,7 +14,7 @@ std::size_t SizeOf(const Messages& messages) {
 }  // namespace
 
 void KeptAnswers::Put(const StoreKey& key, const std::string& from, Messages messages) {
-  if (disk_) disk_->Put(key, from, messages);
+  if (disk_) disk_->Put(key, from, messages, store_.ShareOf(key.caller));
   const std::size_t bytes = SizeOf(messages);
   store_.Put<Messages>(key, std::make_shared<const Messages>(std::move(messages)), bytes, from);
 }

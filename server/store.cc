@@ -19,6 +19,10 @@ void Store::Erase(Entries::iterator entry) {
   Forget(entry, forgotten);
 }
 
+std::optional<std::int64_t> Store::ShareOf(const std::string& caller) const {
+  return share_of_ ? share_of_(caller) : std::nullopt;
+}
+
 std::size_t Store::LimitOf(const std::string& caller) const {
   const std::optional<std::int64_t> share = share_of_ ? share_of_(caller) : std::nullopt;
   return share ? std::min(limit_, static_cast<std::size_t>(*share)) : limit_;

@@ -32,8 +32,8 @@ struct StoreKey {
 class Store {
  public:
   // The most bytes that the values of a caller may have; nothing: the whole limit.
-  using ShareOf = std::function<std::optional<std::int64_t>(const std::string& caller)>;
-  explicit Store(std::size_t limit_bytes, ShareOf share_of = {})
+  using Shares = std::function<std::optional<std::int64_t>(const std::string& caller)>;
+  explicit Store(std::size_t limit_bytes, Shares share_of = {})
       : limit_(limit_bytes), share_of_(std::move(share_of)) {}
 
   // Keeps a value of about `bytes`, in place of one with the same key. False if it is too large: a model may
@@ -61,6 +61,8 @@ class Store {
   };
   Figures figures() const;
   std::size_t limit_bytes() const { return limit_; }
+  // The share of a caller, where it has one of its own.
+  std::optional<std::int64_t> ShareOf(const std::string& caller) const;
   // Of the values of one caller.
   std::size_t LimitOf(const std::string& caller) const;
 
@@ -80,7 +82,7 @@ class Store {
   void Forget(Entries::iterator entry, Entries& forgotten);
 
   const std::size_t limit_;
-  const ShareOf share_of_;
+  const Shares share_of_;
   mutable std::mutex mutex_;
   Entries entries_;  // used last comes first
   std::map<StoreKey, Entries::iterator> by_key_;

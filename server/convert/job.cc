@@ -1,5 +1,8 @@
 #include "server/convert/job.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include <fmt/format.h>
 
 #include "server/convert/enums.h"
@@ -56,11 +59,12 @@ void ReadLeads(const v1::Leads& proto, const std::string& at, Operation& op, Fie
 
 void ReadFeeds(const v1::Feeds& proto, const std::string& at, Operation& op, FieldErrors& errors) {
   if (proto.has_plunge_angle_deg()) {
+    // Thirty degrees may be stated, though their radians come back as a little less.
+    const double most = std::round(Degrees(kDefaultPlungeAngle));
     Require(errors, At(at, "plunge_angle_deg"), proto.plunge_angle_deg(),
-            proto.plunge_angle_deg() >= kMinPlungeAngleDeg &&
-                proto.plunge_angle_deg() <= Degrees(kDefaultPlungeAngle),
-            fmt::format("in [{:g}, {:g}]", kMinPlungeAngleDeg, Degrees(kDefaultPlungeAngle)));
-    op.plunge_angle = Radians(proto.plunge_angle_deg());
+            proto.plunge_angle_deg() >= kMinPlungeAngleDeg && proto.plunge_angle_deg() <= most,
+            fmt::format("in [{:g}, {:g}]", kMinPlungeAngleDeg, most));
+    op.plunge_angle = std::min(Radians(proto.plunge_angle_deg()), kDefaultPlungeAngle);
   }
   const auto feed = [&](const char* name, double value) {
     Require(errors, At(at, name), value, value >= limits::kMinFeed && value <= limits::kMaxFeed,

@@ -5,6 +5,7 @@
 
 #include "cam/post/dialect.h"
 #include "core/base/status.h"
+#include "server/handlers/default_values.h"
 #include "server/handlers/prepare.h"
 #include "server/importer.h"
 #include "server/limits.h"
@@ -49,11 +50,7 @@ void AddLimits(const ServerEnv& env, Response& response) {
 }
 
 void AddDefaults(Response& response) {
-  const std::pair<const char*, const char*> defaults[] = {{"post.dialect", "linuxcnc"},
-                                                          {"dialect", "linuxcnc"},
-                                                          {"model.length_unit", "LENGTH_UNIT_MILLIMETER"},
-                                                          {"job.operations[0].strategy", "STRATEGY_AUTO"}};
-  for (const auto& [name, value] : defaults) {
+  for (const auto& [name, value] : JobDefaults()) {
     v1::NamedText& added = *response.add_defaults();
     added.set_name(name);
     added.set_value(value);

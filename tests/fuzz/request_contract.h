@@ -10,6 +10,7 @@
 
 #include "patchmill/v1/status.pb.h"
 #include "server/errors.h"
+#include "server/handlers/get_capabilities.h"
 #include "server/handlers/handlers.h"
 #include "server/wire_count.h"
 #include "server/wire_limits.h"
@@ -66,7 +67,7 @@ void CheckStream(absl::Status (*handler)(const Call&, const Request&, const Sink
 // The first byte says which RPC the others are a request of.
 inline void CheckAnyRequest(std::string bytes) {
   if (bytes.empty()) return;
-  const auto which = static_cast<unsigned char>(bytes[0]) % 14;
+  const auto which = static_cast<unsigned char>(bytes[0]) % 15;
   bytes.erase(0, 1);
   switch (which) {
     case 0:
@@ -94,6 +95,8 @@ inline void CheckAnyRequest(std::string bytes) {
     case 11:
       return CheckUnary(HandleForgetModel, bytes);
     case 12:
+      return CheckUnary(HandleGetCapabilities, bytes);
+    case 13:
       return CheckStream(HandleGenerateProgram, bytes);
     default:
       return CheckStream(HandleVerifyProgram, bytes);

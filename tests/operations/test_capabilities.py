@@ -13,6 +13,22 @@ def numbers(named):
     return {number.name: number.value for number in named}
 
 
+def set_field(message, path, value):
+    """Sets the field of a path such as job.operations[0].detail to a value that is given as text."""
+    *outer, last = path.split(".")
+    for step in outer:
+        name, _, index = step.rstrip("]").partition("[")
+        message = getattr(message, name)[int(index)] if index else getattr(message, name)
+    field = message.DESCRIPTOR.fields_by_name[last]
+    if field.enum_type is not None:
+        value = field.enum_type.values_by_name[value].number
+    elif field.cpp_type == field.CPPTYPE_BOOL:
+        value = value == "true"
+    elif field.cpp_type != field.CPPTYPE_STRING:
+        value = (int if field.cpp_type == field.CPPTYPE_INT32 else float)(value)
+    setattr(message, last, value)
+
+
 class Capabilities(unittest.TestCase):
     def test_they_are_those_of_this_server_and_caller(self):
         with Folder() as folder:
@@ -64,8 +80,21 @@ class Capabilities(unittest.TestCase):
         job.validate_only = True
         with Server() as server, grpc.insecure_channel(server.address) as channel:
             defaults = {d.name: d.value for d in call(channel, "GetCapabilities").events[0].defaults}
-            accepted = call(channel, "GenerateProgram", [job]).events[0].accepted
-        self.assertEqual(defaults["post.dialect"], accepted.resolved_post.dialect)
+            digest = call(channel, "GenerateProgram", [job]).events[0].accepted.request_sha256
+            for path, value in defaults.items():
+                stated = type(job)()
+                stated.CopyFrom(job)
+                set_field(stated, path, value)
+                answer = call(channel, "GenerateProgram", [stated])
+                self.assertEqual(answer.code, "OK", f"{path} = {value}: {answer.message}")
+                self.assertEqual(answer.events[0].accepted.request_sha256, digest, f"{path} = {value}")
+        self.assertEqual(defaults["post.dialect"], "linuxcnc")  # docs/posts.md
+        self.assertEqual(defaults["job.operations[0].strategy"], "STRATEGY_AUTO")
+        for path in ("job.operations[0].steep_angle_deg", "job.operations[0].heights.clearance_above_mm", "post.work_offset", "post.arcs"):
+            self.assertIn(path, defaults)
+        # What a request has to state, and what follows from that, is no default.
+        for path in ("tool.ball_end.diameter_mm", "scallop_mm", "leads.radius_mm"):
+            self.assertNotIn("job.operations[0]." + path, defaults)
 
 
 class Probes(unittest.TestCase):

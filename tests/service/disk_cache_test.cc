@@ -126,6 +126,24 @@ TEST_F(DiskCacheTest, TheOldestLeaveWhenThereIsNoRoom) {
   EXPECT_FALSE(cache->Find(Key("large"), "").has_value());
 }
 
+TEST_F(DiskCacheTest, ACallerBeyondItsShareLosesItsOwnOldest) {
+  const auto cache = Open();
+  const std::int64_t share = 9'000;
+  cache->Put(Key("of another", "bob"), "m", Answer({std::string(2'000, 'x')}), share);
+  for (const char* answer : {"a", "b", "c", "d", "e"}) {
+    for (const fs::path& file : Files())
+      fs::last_write_time(file, fs::last_write_time(file) - std::chrono::seconds(10));
+    cache->Put(Key(answer, "ann"), answer, Answer({std::string(2'000, 'x')}), share);
+  }
+  EXPECT_FALSE(cache->Find(Key("a", "ann"), "a").has_value());
+  EXPECT_TRUE(cache->Find(Key("b", "ann"), "b").has_value());
+  EXPECT_TRUE(cache->Find(Key("e", "ann"), "e").has_value());
+  EXPECT_TRUE(cache->Find(Key("of another", "bob"), "m").has_value());            // the oldest of all
+  cache->Put(Key("large", "ann"), "", Answer({std::string(2'500, 'x')}), share);  // above a quarter
+  EXPECT_FALSE(cache->Find(Key("large", "ann"), "").has_value());
+  EXPECT_TRUE(cache->Find(Key("b", "ann"), "b").has_value());
+}
+
 TEST_F(DiskCacheTest, AForgottenModelTakesItsAnswersAlong) {
   const auto cache = Open();
   cache->Put(Key("1", "ann"), "m", Answer({"x"}));
