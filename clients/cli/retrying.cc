@@ -57,6 +57,12 @@ std::optional<milliseconds> Tries::WaitAfter(const grpc::Status& status) {
 }
 
 grpc::Status Tries::Reported(const grpc::Status& last) const {
+  // The server knows the deadline, too, and its clock may be ahead: then it ends the call first, by
+  // CANCELLED.
+  constexpr double kWay = 0.1;  // s
+  const std::optional<double> left = Left().timeout;
+  if (last.error_code() == grpc::StatusCode::CANCELLED && left && *left <= kWay)
+    return {grpc::StatusCode::DEADLINE_EXCEEDED, last.error_message()};
   return broken_ && LossOf(last) == Loss::kUnreachable ? *broken_ : last;
 }
 

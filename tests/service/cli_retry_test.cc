@@ -160,5 +160,13 @@ TEST(CliRetry, AnAddressWhereNobodyAnswersIsSaidAtOnce) {
   EXPECT_THAT(run.err, HasSubstr("no server answers at 127.0.0.1:1"));
 }
 
+TEST(CliRetry, AServerThatEndsTheCallAtItsDeadlineWasTooSlow) {
+  const TempDir dir;
+  Troubled late({grpc::Status(grpc::StatusCode::CANCELLED, "")}),
+      early({grpc::Status(grpc::StatusCode::CANCELLED, "")});
+  EXPECT_THAT(late.Mill(dir, {"--timeout", "0.1"}).err, HasSubstr("not done within --timeout 0.1 s"));
+  EXPECT_THAT(early.Mill(dir, {"--timeout", "60"}).err, HasSubstr("ended the call"));
+}
+
 }  // namespace
 }  // namespace patchmill
