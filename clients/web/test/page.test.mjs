@@ -392,6 +392,7 @@ test("machine and post file come from files, go into the program, and are named 
   const { bytes } = await downloaded(page, "#post-save");
   const own = bytes.toString().replace(/^name = .*$/m, "name = shop").replace(/^title = .*$/m, "title = Shop 7");
   await page.setInputFiles("#post-file", asFile("shop.post", own));
+  await page.waitForFunction(() => document.getElementById("set-post").value === "./shop.post");
   await page.waitForFunction(() => document.getElementById("problem").hidden);
   assert.equal((await hashOf(page)).get("post"), "./shop.post");
   assert.equal(await page.inputValue("#set-post"), "./shop.post");

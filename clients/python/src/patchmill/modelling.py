@@ -47,7 +47,7 @@ def check(model: ModelLike, *, setup: Setup | None = None, tool: Tool | None = N
 
 def convert(model: ModelLike, *, scale: float | None = None, file_format: str = "", chord_mm: float | None = None,
             max_threads: int = 0, cancel: Canceller | None = None, timeout_s: float | None = None) -> Call[ConvertResult]:
-    """Converts a model of any format into a PatchModel that gives the same jobs, or into a file for other systems.
+    """Converts any model into a PatchModel that gives the same jobs, or into a file for other systems.
 
     scale: scale factor of the model. A curve network keeps its scale, unless it goes into a file.
     file_format: "iges" or "step" for B-spline surfaces, "stl" or "obj" for triangles: `file` of the result.
