@@ -11,10 +11,11 @@
 
 namespace patchmill::cli {
 
-// The tries of one call. Every call of the contract may be made again: a job has no side effects, and an
-// upload or a removal does the same twice. A call that breaks is made three times at most: it may be the
-// reason why its server ended. A server that drains, or is gone after a loss, is asked again for a minute.
-// A server that does not answer the first try is not asked again: its address may be wrong.
+// The tries of one call. Every call of the contract may be made again: a job has no side effects, and
+// an upload or a removal does the same twice. A call that breaks is made three times at most: it may
+// be the reason why its server ended. A server that drains, or is gone after a loss, is asked again
+// for a minute. A server that does not answer the first try is not asked again: its address may be
+// wrong.
 class Tries {
  public:
   explicit Tries(const CommonOptions& options);

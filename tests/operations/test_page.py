@@ -19,9 +19,14 @@ class Page(unittest.TestCase):
     def test_its_commands_run(self):
         blocks = re.findall(r"^```sh\n(.*?)^```", PAGE, re.MULTILINE | re.DOTALL)
         self.assertGreater(len(blocks), 7)
-        commands = "".join(blocks).replace("50051", str(free_port())).replace("9464", str(free_port()))
+        commands = "".join(blocks)
+        ports = set(re.findall(r"(?:127\.0\.0\.1|localhost):(\d+)", commands))
+        self.assertEqual(len(ports), 7)
+        for port in ports:
+            commands = commands.replace(port, str(free_port()))
         script = "set -euo pipefail\ntrap 'kill $(jobs -p) 2>/dev/null || true' EXIT\n" + commands + "echo all-done\n"
         with Folder() as folder:
+            (folder.path / "deploy").symlink_to(ROOT / "deploy")
             ended = subprocess.run(["bash", "-c", script], cwd=folder.path, capture_output=True, text=True, timeout=120,
                                    env={**os.environ, "PATH": f"{BIN}:{os.environ['PATH']}"})
             self.assertEqual(ended.returncode, 0, ended.stdout + ended.stderr)
