@@ -3,7 +3,7 @@
 #   scripts/long_tests.sh NAME
 # NAME: soak, clients, many, requests, whole, asan, asan_passes, asan_jobs, tsan, random, posts, certificates, fuzz, container, coverage, linuxcnc_times, freecad.
 # LIMIT: minutes after which a test is ended, 60 unless it is set; more for a machine that does other work beside.
-# PATCHMILL_BIN: of freecad, a folder with built programs; unset: they are built.
+# PATCHMILL_BIN: of freecad, many and container, a folder with built programs; unset: they are built.
 # SEED: of soak, random, posts and certificates; another one each day unless it is set. MINUTES: of soak, 30 unless it is set.
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -22,6 +22,9 @@ build() {  # build PRESET [targets]
   cmake --preset "$preset"
   cmake --build --preset "$preset" ${1:+--target "$@"}
 }
+programs() {  # patchmill and patchmilld, where PATCHMILL_BIN does not say that they are there
+  if [ -n "${PATCHMILL_BIN:-}" ]; then scripts/setup.sh; else build release patchmill patchmilld; fi
+}
 
 soak() {
   build release patchmill patchmilld
@@ -32,8 +35,8 @@ clients() {  # 64 clients of one server
   tests/service/mixed_clients.py build/release/bin/patchmilld --seed "$seed"
 }
 many() {  # three servers behind nginx, two hundred jobs
-  build release patchmill patchmilld
-  PATCHMILL_LONG=1 tests/operations/run.sh build/release/bin test_many
+  programs
+  PATCHMILL_LONG=1 tests/operations/run.sh "${PATCHMILL_BIN:-build/release/bin}" test_many
 }
 requests() {  # ten thousand random requests, under the sanitizers
   build asan service_tests
@@ -95,7 +98,7 @@ fuzz() {  # a minute of each target
   return "$failed"
 }
 container() {
-  build release patchmill patchmilld
+  programs
   scripts/container_test.sh
 }
 coverage() {  # lines of core, cam, server and clients that the tests reach, those of random jobs left out
@@ -114,7 +117,7 @@ linuxcnc_times() {  # five programs in LinuxCNC, without a display
   python3 tests/bench/linuxcnc_times.py build/release/bin/patchmill docs/machine.json --limit 5
 }
 freecad() {  # the add-on in Debian's FreeCAD
-  if [ -n "${PATCHMILL_BIN:-}" ]; then scripts/setup.sh; else build release patchmill patchmilld; fi
+  programs
   install freecad xvfb xauth
   tests/freecad/run.sh "${PATCHMILL_BIN:-build/release/bin}"
 }
