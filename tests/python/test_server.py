@@ -132,10 +132,10 @@ class Trouble(unittest.TestCase):
     def test_waiting_ends_with_the_deadline_and_with_a_cancel(self):
         with daemon("--max-jobs", "1", "--max-queue", "0") as server, pm.Client(server.address) as client:
             job = InBackground(client)
-            retry = pm.Retry(attempts=1000, first_wait_s=0.2, longest_wait_s=0.2)
+            retry = pm.Retry(attempts=1000, first_wait_s=60.0, longest_wait_s=60.0)
             with pm.Client(server.address, retry=retry) as patient:
                 with self.assertRaises(pm.ServerBusyError):
-                    patient.regions(MODEL, operation(), timeout_s=0.5)
+                    patient.regions(MODEL, operation(), timeout_s=30.0)  # no time for the wait and another try
                 cancel = pm.Canceller()
                 threading.Timer(0.3, cancel).start()
                 with self.assertRaises(pm.JobCancelledError):
