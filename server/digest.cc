@@ -35,14 +35,23 @@ void AddShape(const BsplinePatch& p, Canonical& out) {
   AddNumbers(p.weights, out);
 }
 
+// A quad without bulges keeps the digest of the time before bulges existed.
+void AddBulges(const std::vector<Bulge>& bulges, Canonical& out) {
+  if (bulges.empty()) return;
+  out.Add("bulges").Add(static_cast<std::int64_t>(bulges.size()));
+  for (const Bulge& b : bulges) out.Add(b.u).Add(b.v).Add(b.by.x()).Add(b.by.y()).Add(b.by.z());
+}
+
 void AddShape(const GregoryPatch& p, Canonical& out) {
   out.Add(p.blend == GregoryPatch::Blend::kCorner ? "gregory-corner" : "gregory-edge");
   AddPoints(p.points, out);
+  AddBulges(p.bulges, out);
 }
 
 void AddShape(const BrownPatch& p, Canonical& out) {
   out.Add("brown").Add(std::int64_t{p.degree_u}).Add(std::int64_t{p.degree_v});
   AddPoints(p.points, out);
+  AddBulges(p.bulges, out);
   if (p.breaks_u.empty() && p.breaks_v.empty())
     return;  // the digest is that of the time before breaks existed
   out.Add("breaks");
@@ -63,6 +72,7 @@ void AddShape(const LoftTriangle& p, Canonical& out) {
 void AddShape(const G2GregoryPatch& p, Canonical& out) {
   out.Add("g2-gregory").Add(std::int64_t{p.degree});
   AddPoints(p.points, out);
+  AddBulges(p.bulges, out);
 }
 
 void AddShape(const HosakaPatch& p, Canonical& out) {
@@ -73,6 +83,7 @@ void AddShape(const HosakaPatch& p, Canonical& out) {
   }
   out.Add(std::int64_t{p.inner_u}).Add(std::int64_t{p.inner_v}).Add(std::int64_t{p.inner_order});
   AddPoints(p.points, out);
+  AddBulges(p.bulges, out);
 }
 
 void AddShape(const BezierTriangle& p, Canonical& out) {

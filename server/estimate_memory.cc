@@ -27,7 +27,8 @@ std::int64_t EstimateMemory(const PatchModel& model, const Job& job) {
   double area = 0.0, controls = 0.0;
   for (const Patch& patch : model.patches) {
     area += AreaOfBox(patch.shape);
-    controls += static_cast<double>(ControlPoints(patch.shape).size());
+    const auto bulges = static_cast<double>(Bulges(patch.shape).size());
+    controls += static_cast<double>(ControlPoints(patch.shape).size()) + 64.0 * bulges * (bulges + 2.0);
   }
   const double scale = job.setup.placement.scale;
   const double radius = BallRadius(job.operation.tool);

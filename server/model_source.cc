@@ -223,6 +223,7 @@ absl::StatusOr<LoadedModel> LoadText(const v1::ModelFile& file, std::string_view
   } else if (const std::optional<double> unit = MillimetersPer(file.length_unit())) {
     for (Patch& patch : loaded.model.patches) {
       for (Vec3& p : ControlPoints(patch.shape)) p *= *unit;
+      for (Bulge& b : Bulges(patch.shape)) b.by *= *unit;
     }
   } else {
     FieldErrors errors;
@@ -504,7 +505,8 @@ std::string FindingsOfStored(Store& store, const StoreKey& key) {
 std::size_t MemoryOf(const PatchModel& model) {
   std::size_t bytes = 500 * model.faces.size();
   for (const Patch& patch : model.patches)
-    bytes += sizeof(Patch) + patch.id.capacity() + 32 * ControlPoints(patch.shape).size();
+    bytes += sizeof(Patch) + patch.id.capacity() + 32 * ControlPoints(patch.shape).size() +
+             64 * Bulges(patch.shape).size();
   return bytes;
 }
 

@@ -148,6 +148,8 @@ struct NetworkFace {
   std::vector<int> vertices;  // around the face, three or four; more with cuts
   PatchScheme scheme = PatchScheme::kAuto;
   std::vector<FacePush> pushes = {};  // they add up
+  // Of a quad: u along side 0, v away from it. They move neither the border nor the neighbours.
+  std::vector<Bulge> bulges = {};
   std::vector<SideTwists> twists = {};
   // Inserted edges between two corners, which leave pieces of three or four sides [joining, section 2]. The
   // scheme applies to the pieces with its number of sides.

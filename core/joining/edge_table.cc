@@ -226,6 +226,7 @@ EdgeTable BuildEdgeTable(const CurveNetwork& network, Diagnostics& list) {
   const bool apart = CheckVertices(network, findings);
   CheckEdgeShapes(network, findings);
   CheckPushes(network, findings);
+  CheckBulges(network, findings);
   CheckTwists(network, findings);
 
   EdgeByEnds by_ends;

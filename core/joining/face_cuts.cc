@@ -60,6 +60,7 @@ std::vector<Loop> PiecesOf(const NetworkFace& face, int index, const NetworkWrit
     return error(fmt::format("has {} corners and cuts; at most {}", face.vertices.size(), kMaxCutCorners));
   }
   if (!face.pushes.empty()) return error("has cuts and is pushed; give its pieces as faces, and push these");
+  if (!face.bulges.empty()) return error("has cuts and bulges; give its pieces as faces");
   std::vector<Loop> pieces = {face.vertices};
   for (const auto& ends : face.cuts) {
     if (Cut(pieces, ends)) continue;

@@ -74,4 +74,27 @@ void CheckPushes(const CurveNetwork& network, const NetworkWriter& findings) {
   }
 }
 
+void CheckBulges(const CurveNetwork& network, const NetworkWriter& findings) {
+  for (std::size_t f = 0; f < network.faces.size(); ++f) {
+    const NetworkFace& face = network.faces[f];
+    const auto error = [&](std::string_view text) {
+      findings.Error("INVALID_BULGE", findings.AtFace(static_cast<int>(f)), text);
+    };
+    if (face.bulges.empty()) continue;
+    if (face.vertices.size() != 4) {
+      error("has bulges and is no quad; give it four corners, or push it");
+    } else if (face.bulges.size() > kMaxBulges) {
+      error(fmt::format("has {} bulges; at most {}", face.bulges.size(), kMaxBulges));
+    }
+    for (const auto& [u, v, by] : face.bulges) {
+      const auto inside = [](double t) { return t >= kMinBulgePlace && t <= 1.0 - kMinBulgePlace; };
+      if (inside(u) && inside(v) && by.allFinite()) continue;
+      error(
+          fmt::format("has a bulge at ({:g}, {:g}) by ({:g}, {:g}, {:g}); the place must be in [{:g}, {:g}] "
+                      "both ways, and the vector finite",
+                      u, v, by.x(), by.y(), by.z(), kMinBulgePlace, 1.0 - kMinBulgePlace));
+    }
+  }
+}
+
 }  // namespace patchmill

@@ -31,4 +31,8 @@ void CheckTwists(const CurveNetwork& network, const NetworkWriter& findings);
 // INVALID_PUSH: a place outside the face, or an amount that is not finite.
 void CheckPushes(const CurveNetwork& network, const NetworkWriter& findings);
 
+// INVALID_BULGE: bulges of a triangle, too many of them, a place too near to the border or outside the face,
+// or a vector that is not finite.
+void CheckBulges(const CurveNetwork& network, const NetworkWriter& findings);
+
 }  // namespace patchmill

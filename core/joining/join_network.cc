@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <variant>
 
 #include "core/base/index.h"
 #include "core/base/status.h"
@@ -97,6 +98,11 @@ PatchModel MakePatches(const JoinFrame& frame, const std::vector<JoinedEdge>& ed
       }
     }
     model.patches.push_back({face.id, MakeFacePatch(boundary, face.scheme)});
+    std::visit(
+        [&face](auto& shape) {
+          if constexpr (requires { shape.bulges; }) shape.bulges = face.bulges;
+        },
+        model.patches.back().shape);
   }
   return model;
 }

@@ -90,8 +90,11 @@ Box3 Place(const Placement& placement, const Box3& box) {
 }
 
 PatchModel Place(const Placement& placement, PatchModel model) {
+  Placement turn = placement;
+  turn.translation.setZero();
   for (Patch& patch : model.patches) {
     for (Vec3& p : ControlPoints(patch.shape)) p = Place(placement, p);
+    for (Bulge& b : Bulges(patch.shape)) b.by = Place(turn, b.by);
   }
   if (model.join_tolerance) *model.join_tolerance *= placement.scale;
   for (ModelFace& face : model.faces) face.radius *= placement.scale;

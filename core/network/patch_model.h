@@ -59,7 +59,7 @@ PatchModel Place(const Placement& placement, PatchModel model);
 // reason (the first bad point of a patch stands for all of them), at most 1000. It is empty if the model is
 // sound. Cost O(points). Codes: PATCH_COUNT, POINT_COUNT, WEIGHT_COUNT, INVALID_DEGREE, INVALID_KNOTS,
 // INVALID_WEIGHT, NOT_FINITE, TOO_LARGE, ZERO_EXTENT, DUPLICATE_ID, INVALID_JOIN_TOLERANCE, INVALID_BREAKS,
-// INVALID_FACE.
+// INVALID_BULGE, INVALID_FACE.
 Diagnostics ValidateModel(const PatchModel& model);
 
 Box3 ControlBox(const PatchModel& model);  // of all control points

@@ -182,7 +182,32 @@ void CheckShape(const BsplinePatch& b, Faults& faults) {
   CheckWeights(b.weights, b.points.size(), faults);
 }
 
-void CheckShape(const GregoryPatch& g, Faults& faults) { CheckPoints(g.points, faults); }
+void CheckBulges(const std::vector<Bulge>& bulges, Faults& faults) {
+  if (bulges.size() > kMaxBulges) {
+    faults.Add("INVALID_BULGE", "bulges", fmt::format("are {}; at most {}", bulges.size(), kMaxBulges));
+    return;
+  }
+  for (const Bulge& b : bulges) {
+    const auto inside = [](double t) { return t >= kMinBulgePlace && t <= 1.0 - kMinBulgePlace; };
+    if (!inside(b.u) || !inside(b.v)) {
+      faults.Add("INVALID_BULGE", "bulges",
+                 fmt::format("have one at ({:g}, {:g}); both must be in [{:g}, {:g}]", b.u, b.v,
+                             kMinBulgePlace, 1.0 - kMinBulgePlace));
+      return;
+    }
+    if (!b.by.allFinite() || b.by.cwiseAbs().maxCoeff() > kMaxCoordinate) {
+      faults.Add("INVALID_BULGE", "bulges",
+                 fmt::format("have one by ({:g}, {:g}, {:g}); must be finite and at most {:g}", b.by.x(),
+                             b.by.y(), b.by.z(), kMaxCoordinate));
+      return;
+    }
+  }
+}
+
+void CheckShape(const GregoryPatch& g, Faults& faults) {
+  CheckPoints(g.points, faults);
+  CheckBulges(g.bulges, faults);
+}
 
 void CheckShape(const BezierTriangle& t, Faults& faults) {
   if (CheckDegree(t.degree, "degree", faults)) {
@@ -221,6 +246,7 @@ void CheckShape(const BrownPatch& b, Faults& faults) {
     CheckPointCount(b.points.size(), 4 * (n + m) - 4, faults);
   }
   CheckPoints(b.points, faults);
+  CheckBulges(b.bulges, faults);
 }
 
 void CheckShape(const GregoryTriangle& g, Faults& faults) { CheckPoints(g.points, faults); }
@@ -237,6 +263,7 @@ void CheckShape(const G2GregoryPatch& g, Faults& faults) {
     CheckPointCount(g.points.size(), static_cast<std::size_t>((g.degree + 1) * (g.degree + 1) + 16), faults);
   }
   CheckPoints(g.points, faults);
+  CheckBulges(g.bulges, faults);
 }
 
 void CheckBreaks(const HosakaPatch& h, Faults& faults) {
@@ -277,22 +304,24 @@ void CheckShape(const HosakaPatch& h, Faults& faults) {
   }
   CheckBreaks(h, faults);
   CheckPoints(h.points, faults);
+  CheckBulges(h.bulges, faults);
 }
 
 // The number of points that counts for a patch. Few breaks or knots can cut it into many pieces, so it counts
 // with the points of these.
 std::size_t PointLoad(const PatchShape& shape) {
   const std::size_t given = ControlPoints(shape).size();
-  std::size_t pieces = 1, each = 0;
+  const std::size_t bulges = Bulges(shape).size();
+  std::size_t pieces = (bulges + 1) * (bulges + 1), each = 64;
   if (const auto* b = std::get_if<BsplinePatch>(&shape)) {
     return std::max(given, CountSplinePiecePoints({b->degree_u, b->knots_u}, {b->degree_v, b->knots_v}));
   }
   if (const auto* brown = std::get_if<BrownPatch>(&shape)) {
-    pieces = (brown->breaks_u.size() + 1) * (brown->breaks_v.size() + 1);
+    pieces = (brown->breaks_u.size() + bulges + 1) * (brown->breaks_v.size() + bulges + 1);
     each = 64;  // the least, of bidegree 7
   } else if (const auto* h = std::get_if<HosakaPatch>(&shape)) {
     const auto& b = h->breaks;
-    pieces = (b[0].size() + b[2].size() + 1) * (b[1].size() + b[3].size() + 1);
+    pieces = (b[0].size() + b[2].size() + bulges + 1) * (b[1].size() + b[3].size() + bulges + 1);
     each = 49;
   }
   return std::max(given, pieces > 1 ? pieces * each : 0);

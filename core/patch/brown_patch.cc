@@ -6,6 +6,7 @@
 //   S = H2 + lambda (H1 - H2) + lambda X + (1 - lambda) Y,   lambda = p/(p+q), 1 - lambda = q/(p+q).
 // H1 - H2 has only its four inner Bezier points, so nothing cancels near a corner.
 #include "core/math/tensor_bernstein.h"
+#include "core/patch/bulge.h"
 #include "core/patch/kinds.h"
 #include "core/patch/tensor_kernel.h"
 
@@ -272,6 +273,18 @@ BernsteinNet NetOn(const Lofts& lofts) {
 }
 
 }  // namespace
+
+ScaledBernstein<double> NetWeight(const BrownPatch&) {  // p + q
+  const auto weight = ScaledWeight({});
+  ScaledBernstein<double> sum(4, 4, 0.0);
+  for (int k = 0; k <= 4; ++k) {
+    for (int l = 0; l <= 4; ++l) {
+      sum(k, l) = weight[static_cast<std::size_t>(k)] * Binomial(4, l) +
+                  weight[static_cast<std::size_t>(l)] * Binomial(4, k);
+    }
+  }
+  return sum;
+}
 
 std::vector<Piece> ShapePieces(const BrownPatch& patch, const RunContext& run) {
   std::vector<Piece> pieces;

@@ -2,6 +2,7 @@
 //   lambda(u,v) B_i(u) B_j(v) (P_ij1 - P_ij0),  lambda = b^2/(a^2 + b^2),
 // where a and b are the distances along u and v from the block's corner [shapes (21)].
 #include "core/math/tensor_bernstein.h"
+#include "core/patch/bulge.h"
 #include "core/patch/kinds.h"
 #include "core/patch/tensor_kernel.h"
 
@@ -81,29 +82,39 @@ Vec3 ShapePosition(const G2GregoryPatch& patch, double u, double v) {
   return s;
 }
 
+namespace {
+
+using Scalar = ScaledBernstein<double>;
+
+// Square of the distance along u (along_u) or v from the end 0 or 1, in bidegree (2,2).
+Scalar Square(bool along_u, bool end) {
+  Scalar form(2, 2, 0.0);
+  for (int k = 0; k < 3; ++k) (along_u ? form(end ? 0 : 2, k) : form(k, end ? 0 : 2)) = Binomial(2, k);
+  return form;
+}
+
+// Product of the sums a^2 + b^2 of all corners but one.
+Scalar Denominators(int without) {
+  Scalar product(0, 0, 1.0);
+  for (int corner = 0; corner < 4; ++corner) {
+    if (corner == without) continue;
+    Scalar sum = Square(true, corner / 2 == 1);
+    const Scalar other = Square(false, corner % 2 == 1);
+    for (std::size_t k = 0; k < sum.c.size(); ++k) sum.c[k] += other.c[k];
+    Scalar next(product.m + 2, product.n + 2, 0.0);
+    product.MultiplyInto(sum, next);
+    product = std::move(next);
+  }
+  return product;
+}
+
+}  // namespace
+
+Scalar NetWeight(const G2GregoryPatch&) { return Denominators(-1); }
+
 // The net is multiplied by the product of the four corner sums a^2 + b^2: degree n + 8 each way.
 std::vector<Piece> ShapePieces(const G2GregoryPatch& patch) {
-  using Scalar = ScaledBernstein<double>;
   const int n = patch.degree;
-  // Square of the distance along u (along_u) or v from the end 0 or 1, in bidegree (2,2).
-  const auto square = [](bool along_u, bool end) {
-    Scalar form(2, 2, 0.0);
-    for (int k = 0; k < 3; ++k) (along_u ? form(end ? 0 : 2, k) : form(k, end ? 0 : 2)) = Binomial(2, k);
-    return form;
-  };
-  const auto denominators = [&](int without) {
-    Scalar product(0, 0, 1.0);
-    for (int corner = 0; corner < 4; ++corner) {
-      if (corner == without) continue;
-      Scalar sum = square(true, corner / 2 == 1);
-      const Scalar other = square(false, corner % 2 == 1);
-      for (std::size_t k = 0; k < sum.c.size(); ++k) sum.c[k] += other.c[k];
-      Scalar next(product.m + 2, product.n + 2, 0.0);
-      product.MultiplyInto(sum, next);
-      product = std::move(next);
-    }
-    return product;
-  };
   const auto put = [n](int i, int j, const Vec3& p) {
     return Vec4(Binomial(n, i) * Binomial(n, j) * Vec4(p.x(), p.y(), p.z(), 1.0));
   };
@@ -114,7 +125,7 @@ std::vector<Piece> ShapePieces(const G2GregoryPatch& patch) {
     }
   }
   ForBlocks(patch, [&](int, int, int i, int j, const Vec3&, const Vec3&) { regular(i, j).setZero(); });
-  regular.MultiplyInto(denominators(-1), net);
+  regular.MultiplyInto(Denominators(-1), net);
   for (int corner = 0; corner < 4; ++corner) {
     ScaledBernstein<Vec4> first(n, n, Vec4::Zero()), second(n, n, Vec4::Zero());
     ForBlocks(patch, [&](int a, int b, int i, int j, const Vec3& p0, const Vec3& p1) {
@@ -122,10 +133,10 @@ std::vector<Piece> ShapePieces(const G2GregoryPatch& patch) {
       first(i, j) = put(i, j, p0);
       second(i, j) = put(i, j, p1);
     });
-    const Scalar others = denominators(corner);
+    const Scalar others = Denominators(corner);
     for (const bool along_u : {true, false}) {
       Scalar weight(others.m + 2, others.n + 2, 0.0);
-      others.MultiplyInto(square(along_u, along_u ? corner / 2 == 1 : corner % 2 == 1), weight);
+      others.MultiplyInto(Square(along_u, along_u ? corner / 2 == 1 : corner % 2 == 1), weight);
       (along_u ? first : second).MultiplyInto(weight, net);
     }
   }

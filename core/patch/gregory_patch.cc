@@ -7,6 +7,7 @@
 // keeps the evaluation short and free of cancellation.
 #include "core/math/jet2.h"
 #include "core/math/tensor_bernstein.h"
+#include "core/patch/bulge.h"
 #include "core/patch/gregory_layout.h"
 #include "core/patch/kinds.h"
 #include "core/patch/tensor_kernel.h"
@@ -137,6 +138,13 @@ Points Bicubic(const GregoryPatch& patch, bool inner, bool first) {
   return net;
 }
 
+Scalar DistanceSum(const GregoryCorner& c) {
+  Scalar sum = c.i == 1 ? Linear(0, 0, 1, 1) : Linear(1, 1, 0, 0);          // u, 1-u
+  const Scalar other = c.j == 1 ? Linear(0, 1, 0, 1) : Linear(1, 0, 1, 0);  // v, 1-v
+  for (std::size_t k = 0; k < 4; ++k) sum.c[k] += other.c[k];
+  return sum;
+}
+
 // The net of (p S1 + q S2) / (p + q), raised to bidegree (5,5).
 Points EdgeNet(const GregoryPatch& patch) {
   Scalar p(2, 2, 0.0), q(2, 2, 0.0);  // scaled: u(1-u) (1-v+v)^2 and likewise
@@ -151,16 +159,11 @@ Points EdgeNet(const GregoryPatch& patch) {
 Points CornerNet(const GregoryPatch& patch) {
   const Scalar from_u[2] = {Linear(0, 0, 1, 1), Linear(1, 1, 0, 0)};  // u, 1-u
   const Scalar from_v[2] = {Linear(0, 1, 0, 1), Linear(1, 0, 1, 0)};  // v, 1-v
-  const auto distance_sum = [&](const GregoryCorner& c) {
-    Scalar sum = from_u[c.i - 1];
-    for (std::size_t k = 0; k < 4; ++k) sum.c[k] += from_v[c.j - 1].c[k];
-    return sum;
-  };
   // Product of the denominators of all corners except `without`.
   const auto denominators = [&](int without) {
     Scalar w(0, 0, 1.0);
     for (int k = 0; k < 4; ++k) {
-      if (k != without) w = Product(w, distance_sum(kGregoryCorners[k]));
+      if (k != without) w = Product(w, DistanceSum(kGregoryCorners[k]));
     }
     return w;
   };
@@ -182,6 +185,17 @@ Points CornerNet(const GregoryPatch& patch) {
 }
 
 }  // namespace
+
+Scalar NetWeight(const GregoryPatch& patch) {
+  if (patch.blend == GregoryPatch::Blend::kEdge) {  // p + q
+    Scalar sum(2, 2, 0.0);
+    for (int k = 0; k < 3; ++k) sum(1, k) += Binomial(2, k), sum(k, 1) += Binomial(2, k);
+    return sum;
+  }
+  Scalar product(0, 0, 1.0);
+  for (const GregoryCorner& c : kGregoryCorners) product = Product(product, DistanceSum(c));
+  return product;
+}
 
 std::vector<Piece> ShapePieces(const GregoryPatch& patch) {
   const Points form = patch.blend == GregoryPatch::Blend::kEdge ? EdgeNet(patch) : CornerNet(patch);

@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "core/math/tensor_bernstein.h"
+#include "core/patch/bulge.h"
 #include "core/patch/kinds.h"
 
 namespace patchmill::internal {
@@ -227,6 +228,8 @@ BernsteinNet NetOf(const HosakaPatch& patch, const Edges& e, const ParameterBox&
 }
 
 }  // namespace
+
+Scalar NetWeight(const HosakaPatch&) { return {0, 0, 1.0}; }
 
 std::vector<Piece> ShapePieces(const HosakaPatch& patch) {
   const Edges e = EdgesOf(patch);

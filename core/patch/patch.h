@@ -9,6 +9,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <variant>
@@ -20,6 +21,18 @@
 namespace patchmill {
 
 inline constexpr int kMaxDegree = 15;
+
+// A bulge or a dent of a quad: the place (u, v) moves by the vector `by`, every other place by less, along
+// the same line [shapes (40)]. The border stays, with the first and second derivatives there. So neighbours
+// keep their tangent planes and curvatures. Bulges of one patch add up.
+struct Bulge {
+  double u = 0.5, v = 0.5;  // [kMinBulgePlace, 1 - kMinBulgePlace]
+  Vec3 by = Vec3::Zero();
+
+  bool operator==(const Bulge&) const = default;
+};
+inline constexpr double kMinBulgePlace = 0.01;
+inline constexpr std::size_t kMaxBulges = 20;  // of one patch, because each cuts it into more pieces
 
 // Tensor Bezier patch, degree 1..15 each way, rational with positive weights.
 //   points[i * (degree_v + 1) + j]: i along u (slowest), j along v. Cartesian, NOT multiplied by the weight.
@@ -85,6 +98,7 @@ struct GregoryPatch {
   enum class Blend { kCorner, kEdge };
   std::array<Vec3, 20> points;
   Blend blend = Blend::kCorner;
+  std::vector<Bulge> bulges = {};
 };
 
 // Triangular Bezier patch of degree n (1..15) with (n+1)(n+2)/2 points, row after row: n+1 along the edge t=0
@@ -133,6 +147,7 @@ struct BrownPatch {
   int degree_v = 3;
   std::vector<Vec3> points;
   std::vector<double> breaks_u = {}, breaks_v = {};  // in (0, 1), increasing; at most kMaxBrownBreaks
+  std::vector<Bulge> bulges = {};
 };
 inline constexpr int kMaxBrownDegree = 11;  // its net has four degrees more
 inline constexpr int kMaxBrownBreaks = 1000;
@@ -202,6 +217,7 @@ struct LoftTriangle {
 struct G2GregoryPatch {
   int degree = 6;
   std::vector<Vec3> points;
+  std::vector<Bulge> bulges = {};
 };
 
 // Hosaka's blended boundary patch [shapes, section 6].
@@ -230,6 +246,7 @@ struct HosakaPatch {
   // [shapes (28)] with k = 1; 2 multiplies it by another u v (1-u)(1-v), so that edge normals stay.
   int inner_u = -1, inner_v = -1, inner_order = 1;
   std::vector<Vec3> points;
+  std::vector<Bulge> bulges = {};
 };
 inline constexpr int kMaxHosakaBreaks = 16;
 

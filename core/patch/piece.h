@@ -13,6 +13,9 @@
 //   G2-Gregory        1, rational of 8 degrees more
 //   Hosaka            1 per rectangle of the break parameters, polynomial
 //
+// Bulges cut a quad at their places. Its pieces have the degrees above, but no less than 5 more than their
+// denominator has.
+//
 // Algorithms that plan, bound and measure see pieces only.
 #pragma once
 

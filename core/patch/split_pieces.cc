@@ -1,5 +1,6 @@
 #include "core/patch/split_pieces.h"
 
+#include "core/patch/bulge.h"
 #include "core/patch/condition_pieces.h"
 #include "core/patch/kinds.h"
 
@@ -30,10 +31,21 @@ std::vector<Piece> SplitIntoPieces(PatchId id, const PatchShape& shape, const Ru
       shape);
   if (std::holds_alternative<BezierPatch>(shape) || std::holds_alternative<BsplinePatch>(shape))
     pieces = internal::ConditionPieces(std::move(pieces));
+  const bool bulged = std::visit(
+      [&pieces](const auto& s) {
+        if constexpr (requires { s.bulges; }) {
+          if (s.bulges.empty()) return false;
+          pieces = internal::WithBulges(pieces, s.bulges, internal::NetWeight(s));
+          return true;
+        } else {
+          return false;
+        }
+      },
+      shape);
   const bool singular = std::visit([](const auto& s) { return internal::HasSingularNet(s); }, shape);
   for (Piece& piece : pieces) {
     piece.patch = id;
-    piece.gregory = std::get_if<GregoryPatch>(&shape);
+    piece.gregory = bulged ? nullptr : std::get_if<GregoryPatch>(&shape);
     if (singular && piece.gregory == nullptr) piece.shape = &shape;
   }
   return pieces;

@@ -201,6 +201,31 @@ HosakaPatch RandomHosaka(std::uint64_t seed, int degree, bool breaks, bool inner
   return patch;
 }
 
+std::vector<PatchShape> BulgedKinds(double size) {
+  using enum GregoryPatch::Blend;
+  std::vector<PatchShape> kinds = {RandomGregory(1, kCorner, size),
+                                   RandomGregory(2, kEdge, size),
+                                   RandomBrown(3, 3, 3, size),
+                                   RandomBrown(4, 4, 11, size, {0.3, 0.6}, {0.8}),
+                                   RandomG2Gregory(5, 5, size),
+                                   RandomG2Gregory(6, 7, size),
+                                   RandomHosaka(7, 3, false, false, size),
+                                   RandomHosaka(8, 4, true, true, size)};
+  Random random(9);
+  for (PatchShape& shape : kinds) {
+    std::visit(
+        [&](auto& s) {
+          if constexpr (requires { s.bulges; }) {
+            s.bulges = {{0.2, 0.8, random.Point(-0.2 * size, 0.2 * size)},
+                        {0.9, 0.8, random.Point(-0.2 * size, 0.2 * size)},
+                        {0.5, 0.05, random.Point(-0.2 * size, 0.2 * size)}};
+          }
+        },
+        shape);
+  }
+  return kinds;
+}
+
 std::vector<PatchShape> SingularKinds(double size) {
   using enum GregoryPatch::Blend;
   return {RandomBrown(1, 3, 3, size),

@@ -63,6 +63,9 @@ PatchModel Transformed(PatchModel model, const Eigen::Affine3d& motion) {
     std::visit(
         [&](auto& shape) {
           for (Vec3& p : shape.points) p = motion * p;
+          if constexpr (requires { shape.bulges; }) {
+            for (Bulge& b : shape.bulges) b.by = motion.linear() * b.by;
+          }
         },
         patch.shape);
   }

@@ -79,6 +79,8 @@ LoftTriangle RandomLoftTriangle(std::uint64_t seed, int degree, bool squared, do
 G2GregoryPatch RandomG2Gregory(std::uint64_t seed, int degree, double size = 20.0);
 // With breaks, f1 has one and f4 two; with an inner term, 2 x 3 coefficients of order 2.
 HosakaPatch RandomHosaka(std::uint64_t seed, int degree, bool breaks, bool inner, double size = 20.0);
+// One of every kind that may have bulges, with three of them.
+std::vector<PatchShape> BulgedKinds(double size = 20.0);
 // One of every kind whose net has singular corners.
 std::vector<PatchShape> SingularKinds(double size = 20.0);
 

@@ -112,5 +112,9 @@ TEST(Derivatives, Hosaka) {
   ExpectDerivatives(testing::RandomHosaka(9, 3, true, true, 1.0), false);
 }
 
+TEST(Derivatives, Bulges) {
+  for (const PatchShape& shape : testing::BulgedKinds(1.0)) ExpectDerivatives(shape, false);
+}
+
 }  // namespace
 }  // namespace patchmill

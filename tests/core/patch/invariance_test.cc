@@ -27,6 +27,7 @@ std::vector<PatchShape> OneOfEachKind() {
   for (PatchShape& shape : testing::SingularKinds()) shapes.push_back(std::move(shape));
   shapes.push_back(testing::RandomHosaka(7, 3, false, false));
   shapes.push_back(testing::RandomHosaka(8, 4, true, true));
+  for (PatchShape& shape : testing::BulgedKinds()) shapes.push_back(std::move(shape));
   return shapes;
 }
 
@@ -60,6 +61,7 @@ TEST(Invariance, ConstantShapeHasNoDerivatives) {  // partition of unity through
     std::visit(
         [](auto& s) {
           for (Vec3& p : s.points) p = Vec3(7, -8, 9);
+          if constexpr (requires { s.bulges; }) s.bulges.clear();
         },
         shape);
     for (const Vec2& q : {Vec2(0.2, 0.3), Vec2(0, 0), Vec2(1, 0), Vec2(0.6, 0.4)}) {

@@ -1,6 +1,8 @@
 // Pieces against native evaluation, for every kind.
 #include "core/patch/piece.h"
 
+#include <set>
+
 #include <gtest/gtest.h>
 
 #include "tests/support/random.h"
@@ -129,6 +131,38 @@ TEST(Pieces, HosakaOnePerBreakRectangle) {
       const PatchShape broken = testing::RandomHosaka(n, n, true, inner, 1.0);
       EXPECT_EQ(SplitIntoPieces(PatchId(0), broken).size(), 6u);
       ExpectPiecesMatch(broken, 200);
+    }
+  }
+}
+
+TEST(Pieces, BulgesCutThemAtTheirPlaces) {
+  for (const PatchShape& shape : testing::BulgedKinds(1.0)) {
+    ExpectPiecesMatch(shape, 200);
+    std::set<double> us = {0.0, 0.2, 0.5, 0.9}, vs = {0.0, 0.05, 0.8};
+    if (const auto* brown = std::get_if<BrownPatch>(&shape)) {
+      us.insert(brown->breaks_u.begin(), brown->breaks_u.end());
+      vs.insert(brown->breaks_v.begin(), brown->breaks_v.end());
+    } else if (const auto* hosaka = std::get_if<HosakaPatch>(&shape)) {
+      for (const int k : {0, 1, 2, 3}) {
+        for (const HosakaPatch::Break& at : hosaka->breaks[static_cast<std::size_t>(k)]) {
+          (k % 2 == 0 ? us : vs).insert(at.at);
+        }
+      }
+    }
+    EXPECT_EQ(SplitIntoPieces(PatchId(0), shape).size(), us.size() * vs.size());
+  }
+}
+
+TEST(Pieces, BulgesKeepTheDegreesLow) {
+  for (const PatchShape& shape : testing::BulgedKinds(1.0)) {
+    for (const Piece& piece : SplitIntoPieces(PatchId(0), shape)) {
+      EXPECT_LE(std::max(piece.net.degree_u, piece.net.degree_v), kMaxDegree);
+      for (const Vec4& p : piece.net.points) {
+        EXPECT_GE(p.w(), 0.0);
+        if (p.w() == 0.0) {
+          EXPECT_EQ(p, Vec4::Zero());
+        }
+      }
     }
   }
 }
