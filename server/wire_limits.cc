@@ -26,6 +26,8 @@ const std::unordered_map<std::string_view, std::size_t>& LongLists() {
       {"patchmill.v1.NetworkFace.more_pushes", limits::kMaxNetworkReferences},
       {"patchmill.v1.NetworkFace.twists", limits::kMaxNetworkReferences},
       {"patchmill.v1.NetworkFace.cuts", limits::kMaxNetworkReferences},
+      {"patchmill.v1.NetworkFace.bulges", limits::kMaxNetworkReferences},
+      {"patchmill.v1.Patch.bulges", limits::kMaxNetworkReferences},
       {"patchmill.v1.GuideRow.edges", limits::kMaxNetworkEdges},
   };
   return *kLists;

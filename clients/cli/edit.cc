@@ -18,7 +18,7 @@ namespace {
 struct EditOptions {
   CommonOptions common;
   std::string model, edits, output, patches;
-  std::vector<std::string> pushes;
+  std::vector<std::string> pushes, moves;
   int continuity = 100;
 };
 
@@ -36,7 +36,12 @@ absl::Status ReadEdits(const std::string& path, v1::EditModelRequest& request) {
   return absl::InvalidArgumentError(fmt::format("{}: has other fields than \"edits\"", path));
 }
 
-absl::Status ReadPush(const std::string& text, v1::EditModelRequest& request) {
+// FACE,U,V,LENGTH.
+struct FacePlace {
+  int face = 0;
+  double u = 0.0, v = 0.0, length = 0.0;
+};
+absl::StatusOr<FacePlace> ReadPlace(const std::string& text, const char* option, const char* length) {
   std::vector<double> numbers;
   for (const std::string& part : CLI::detail::split(text, ',')) {
     double number = 0.0;
@@ -45,13 +50,35 @@ absl::Status ReadPush(const std::string& text, v1::EditModelRequest& request) {
   }
   const std::size_t parts = CLI::detail::split(text, ',').size();
   if (parts != 4 || numbers.size() != 4 || numbers[0] != static_cast<int>(numbers[0])) {
-    return absl::InvalidArgumentError(fmt::format("--push {}; must be FACE,U,V,AMOUNT", text));
+    return absl::InvalidArgumentError(fmt::format("{} {}; must be FACE,U,V,{}", option, text, length));
   }
+  return FacePlace{static_cast<int>(numbers[0]), numbers[1], numbers[2], numbers[3]};
+}
+
+absl::Status ReadPush(const std::string& text, v1::EditModelRequest& request) {
+  const absl::StatusOr<FacePlace> place = ReadPlace(text, "--push", "AMOUNT");
+  if (!place.ok()) return place.status();
   v1::PushFace& push = *request.add_edits()->mutable_push_face();
-  push.set_face(static_cast<int>(numbers[0]));
-  push.mutable_push()->set_u(numbers[1]);
-  push.mutable_push()->set_v(numbers[2]);
-  push.mutable_push()->set_amount(numbers[3]);
+  push.set_face(place->face);
+  push.mutable_push()->set_u(place->u);
+  push.mutable_push()->set_v(place->v);
+  push.mutable_push()->set_amount(place->length);
+  return absl::OkStatus();
+}
+
+// All moves are goals of one edit.
+absl::Status ReadMoves(const std::vector<std::string>& texts, v1::EditModelRequest& request) {
+  if (texts.empty()) return absl::OkStatus();
+  v1::ReachGoals& goals = *request.add_edits()->mutable_reach_goals();
+  for (const std::string& text : texts) {
+    const absl::StatusOr<FacePlace> place = ReadPlace(text, "--move", "DISTANCE");
+    if (!place.ok()) return place.status();
+    v1::PointGoal& goal = *goals.add_points();
+    goal.set_face(place->face);
+    goal.set_u(place->u);
+    goal.set_v(place->v);
+    goal.set_distance(place->length);
+  }
   return absl::OkStatus();
 }
 
@@ -63,6 +90,7 @@ absl::StatusOr<v1::EditModelRequest> MakeRequest(const EditOptions& options) {
   for (const std::string& push : options.pushes) {
     if (const absl::Status read = ReadPush(push, request); !read.ok()) return read;
   }
+  if (const absl::Status read = ReadMoves(options.moves, request); !read.ok()) return read;
   absl::StatusOr<v1::ModelSource> source = ReadModel(options.model);
   if (!source.ok()) return source.status();
   *request.mutable_source() = *std::move(source);
@@ -76,6 +104,11 @@ void PrintSummary(const EditOptions& options, const v1::EditModelResponse& respo
   if (options.common.quiet) return;
   fmt::print(stderr, "{}: {} of {} faces changed\n", options.output, response.changed_faces_size(),
              response.model().network().faces_size());
+  for (const v1::ReachedGoal& goal : response.goals()) {
+    if (goal.reached_size() != 3) continue;
+    fmt::print(stderr, "  {}: at ({:.6g}, {:.6g}, {:.6g}), {:.3g} from the goal\n", goal.field(),
+               goal.reached(0), goal.reached(1), goal.reached(2), goal.distance());
+  }
   double gap = 0.0, angle = 0.0;
   int equal = 0;
   for (const v1::EdgeContinuity& joint : response.joints()) {
@@ -125,6 +158,10 @@ Command AddEdit(CLI::App& app) {
   app.add_option(
       "--push", options->pushes,
       "FACE,U,V,AMOUNT: push a face in or out at this place, after the edits; repeat it for more pushes");
+  app.add_option(
+      "--move", options->moves,
+      "FACE,U,V,DISTANCE: move this place of a face along the surface normal, in the unit of the model; "
+      "repeat it for more places, which are solved together after all other edits");
   app.add_option("--patches", options->patches, "write the patches of the edited model, .json or .pb");
   app.add_option("--continuity", options->continuity,
                  "measure every joint at this many equal steps of its edge")

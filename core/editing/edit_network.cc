@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -10,11 +12,18 @@
 #include "core/base/status.h"
 #include "core/editing/control_store.h"
 #include "core/editing/guide_curve.h"
+#include "core/editing/move_vertex.h"
+#include "core/editing/reach_edges.h"
+#include "core/editing/reach_points.h"
 #include "core/editing/section_points.h"
 #include "core/joining/join_network.h"
+#include "core/joining/line_edges.h"
+#include "core/network/control_points.h"
 
 namespace patchmill {
 namespace {
+
+constexpr std::size_t kMaxFindings = 1000;
 
 bool SameEdge(int a, int b, int c, int d) { return std::minmax(a, b) == std::minmax(c, d); }
 
@@ -24,10 +33,11 @@ class Editor {
 
   absl::Status ReadControls() { return controls_.Read(network_.controls); }
 
-  CurveNetwork Take() {
+  EditedNetwork Take() {
     network_.controls = controls_.List();
-    return std::move(network_);
+    return {std::move(network_), std::move(reached_), std::move(findings_)};
   }
+  void Begin(int edit) { edit_ = edit; }
 
   absl::Status Apply(const PushEdit& edit, const std::string& at) {
     PM_RETURN_IF_ERROR(CheckFace(edit.face, at));
@@ -40,10 +50,7 @@ class Editor {
   }
 
   absl::Status Apply(const NormalEdit& edit, const std::string& at) {
-    const int count = static_cast<int>(network_.vertices.size());
-    if (edit.vertex < 0 || edit.vertex >= count) {
-      return Error(at + ".vertex", fmt::format("= {}; must be in [0, {}]", edit.vertex, count - 1));
-    }
+    PM_RETURN_IF_ERROR(CheckVertex(edit.vertex, at));
     if (!edit.direction.allFinite() || !(edit.direction.norm() > 1e-12)) {
       return Error(at + ".direction", "has no direction; must be finite and not zero");
     }
@@ -70,6 +77,99 @@ class Editor {
     }
     PM_ASSIGN_OR_RETURN(const std::vector<int> faces, Group(edit.vertex, *edit.face, at));
     normals.push_back({edit.direction, faces});
+    return Changed();
+  }
+
+  absl::Status Apply(const VertexEdit& edit, const std::string& at) {
+    PM_RETURN_IF_ERROR(CheckVertex(edit.vertex, at));
+    if (!edit.position.allFinite()) return Error(at + (edit.by ? ".by" : ".position"), "must be finite");
+    const NetworkVertex& vertex = network_.vertices[At(edit.vertex)];
+    if (vertex.on_edge) {
+      return Error(at + ".vertex", fmt::format("= {}; lies on the edge {} {} and moves with it", edit.vertex,
+                                               vertex.on_edge->start, vertex.on_edge->end));
+    }
+    MoveVertexTo(network_, edit.vertex, edit.by ? Vec3(vertex.position + edit.position) : edit.position);
+    return Changed();
+  }
+
+  absl::Status Apply(const CreaseEdit& edit, const std::string& at) {
+    PM_RETURN_IF_ERROR(Join(at));
+    const auto found = std::ranges::find_if(joined_->edges, [&](const JoinedEdge& e) {
+      return SameEdge(e.topology.start, e.topology.end, edit.start, edit.end);
+    });
+    if (found == joined_->edges.end()) {
+      return Error(at, fmt::format("names the edge {} {}; there is no such edge", edit.start, edit.end));
+    }
+    if (found->topology.part) {
+      const TableEdge& whole = joined_->edges[At(found->topology.part->whole)].topology;
+      return Error(at, fmt::format("names the edge {} {}, which is a part of the edge {} {}; name that one",
+                                   edit.start, edit.end, whole.start, whole.end));
+    }
+    if (found->topology.crease == edit.crease) return absl::OkStatus();
+    if (!edit.crease && found->topology.faces.size() == 2) {
+      ShareNormals(found->topology);
+    }
+    FreeLinesOf(edit.start, edit.end);
+    for (NetworkEdge& edge : network_.edges) {
+      if (!SameEdge(edge.start, edge.end, edit.start, edit.end)) continue;
+      edge.crease = edit.crease;
+      return Changed();
+    }
+    NetworkEdge& edge = network_.edges.emplace_back();
+    edge.start = edit.start, edge.end = edit.end, edge.crease = edit.crease;
+    return Changed();
+  }
+
+  absl::Status Apply(const SplitEdit& edit, const std::string& at) {
+    PM_RETURN_IF_ERROR(Join(at));
+    PM_ASSIGN_OR_RETURN(const std::vector<int> crossed, CrossedEdges(edit.split, *joined_, network_, at));
+    const JoinedNetwork before = *joined_;
+    for (const int e : crossed) {
+      const TableEdge& edge = before.edges[At(e)].topology;
+      FreeLinesOf(edge.start, edge.end);
+    }
+    network_.controls = controls_.List();
+    PM_ASSIGN_OR_RETURN(const std::vector<DividedFace> divided, SplitFaces(edit.split, before, at, network_));
+    controls_ = ControlStore();
+    PM_RETURN_IF_ERROR(controls_.Read(network_.controls));
+    PM_RETURN_IF_ERROR(Changed());
+    PM_RETURN_IF_ERROR(Join(at));
+    const double change = LargestChange(divided, before);
+    findings_.push_back(MakeInfo("FACES_SPLIT",
+                                 fmt::format("{} makes {} faces of {}; the surface changes by up to {:.3g}",
+                                             at, 2 * divided.size(), divided.size(), change),
+                                 {.field = at}));
+    return absl::OkStatus();
+  }
+
+  absl::Status Apply(const FitEdit& edit, const std::string& at) {
+    network_.controls = controls_.List();
+    PM_ASSIGN_OR_RETURN(const auto reached, FitPoints(edit.fit, at, run_, network_));
+    Report(reached, at);
+    return Changed();
+  }
+
+  absl::Status Apply(const ReachEdit& edit, const std::string& at) {
+    const Goals& goals = edit.goals;
+    if (goals.edges.empty() && goals.points.empty() && goals.fullness.empty()) {
+      return Error(at, "has no goals; give edges, points or fullness");
+    }
+    if (const std::size_t count = goals.edges.size() + goals.points.size() + goals.fullness.size();
+        count > kMaxGoals) {
+      return Error(at, fmt::format("has {} goals; at most {}", count, kMaxGoals));
+    }
+    PM_RETURN_IF_ERROR(Join(at));
+    if (!goals.edges.empty()) {
+      network_.controls = controls_.List();
+      PM_ASSIGN_OR_RETURN(const auto reached, ReachEdges(goals.edges, *joined_, network_, {at, run_}));
+      Report(reached, at + ".edges");
+      PM_RETURN_IF_ERROR(Changed());
+    }
+    if (goals.points.empty() && goals.fullness.empty()) return absl::OkStatus();
+    PM_RETURN_IF_ERROR(Join(at));
+    PM_ASSIGN_OR_RETURN(auto reached, ReachPoints(goals, *joined_, network_.faces, at));
+    std::ranges::stable_sort(reached, {}, [](const ReachedGoal& r) { return std::pair(r.kind, r.goal); });
+    Report(reached, at);
     return Changed();
   }
 
@@ -178,6 +278,116 @@ class Editor {
     return absl::OkStatus();
   }
 
+  absl::Status CheckVertex(int vertex, const std::string& at) const {
+    const int count = static_cast<int>(network_.vertices.size());
+    if (vertex >= 0 && vertex < count) return absl::OkStatus();
+    return Error(at + ".vertex", fmt::format("= {}; must be in [0, {}]", vertex, count - 1));
+  }
+
+  static const char* Reason(GoalKind kind) {
+    switch (kind) {
+      case GoalKind::kPoint:
+      case GoalKind::kFullness:
+        return "another goal of this edit moves the same place";
+      case GoalKind::kEdge:
+        return "goals of this edge contradict, or its tangent planes hold it back";
+      case GoalKind::kFit:
+        return "the vertices, normals and middles that may move do not suffice; split the face or widen the "
+               "band";
+    }
+    return "";
+  }
+
+  void Report(const std::vector<ReachedGoal>& reached, const std::string& at) {
+    for (const ReachedGoal& goal : reached) {
+      reached_.push_back(goal);
+      reached_.back().edit = edit_;
+      if (!goal.missed || findings_.size() >= kMaxFindings) continue;
+      const char* list = goal.kind == GoalKind::kFullness ? "fullness" : "points";
+      const std::string field = goal.kind == GoalKind::kEdge ? fmt::format("{}[{}]", at, goal.goal)
+                                                             : fmt::format("{}.{}[{}]", at, list, goal.goal);
+      findings_.push_back(MakeWarning(
+          "GOAL_NOT_REACHED",
+          fmt::format("{} comes to ({:.6g}, {:.6g}, {:.6g}), {:.3g} from its target; {}", field,
+                      goal.reached.x(), goal.reached.y(), goal.reached.z(), goal.distance, Reason(goal.kind)),
+          {.point = goal.reached, .field = field}));
+    }
+  }
+
+  // The largest distance between places of faces and the same places after the split, over a grid.
+  double LargestChange(const std::vector<DividedFace>& divided, const JoinedNetwork& before) const {
+    constexpr int kSteps = 12;
+    double most = 0.0;
+    for (std::size_t f = 0; f < before.model.patches.size(); ++f) {
+      const bool cut = std::ranges::any_of(divided, [&](const DividedFace& d) { return At(d.face) == f; });
+      const PatchShape &old = before.model.patches[f].shape, &now = joined_->model.patches[f].shape;
+      if (cut || std::ranges::equal(ControlPoints(old), ControlPoints(now))) continue;
+      for (int i = 0; i <= kSteps; ++i) {
+        for (int j = 0; j <= (IsTriangle(old) ? kSteps - i : kSteps); ++j) {
+          const double u = static_cast<double>(i) / kSteps, v = static_cast<double>(j) / kSteps;
+          most = std::max(most, (Position(now, u, v) - Position(old, u, v)).norm());
+        }
+      }
+    }
+    for (const DividedFace& face : divided) {
+      const PatchShape& whole = before.model.patches[At(face.face)].shape;
+      for (const bool low : {true, false}) {
+        const PatchShape& half = joined_->model.patches[At(low ? face.face : face.made)].shape;
+        const double from = low ? 0.0 : face.at, length = low ? face.at : 1.0 - face.at;
+        for (int i = 0; i <= kSteps; ++i) {
+          for (int j = 0; j <= kSteps; ++j) {
+            const double u = static_cast<double>(i) / kSteps, v = static_cast<double>(j) / kSteps;
+            const Vec3 old =
+                face.along_u ? Position(whole, from + length * u, v) : Position(whole, u, from + length * v);
+            most = std::max(most, (Position(half, u, v) - old).norm());
+          }
+        }
+      }
+    }
+    return most;
+  }
+
+  // Lines with this edge become edges of their own, with the same curves.
+  void FreeLinesOf(int start, int end) {
+    Diagnostics findings;
+    const CurveNetwork whole = WithLinesAsEdges(network_, findings);
+    std::set<int> freed;
+    for (const NetworkEdge& edge : whole.edges) {
+      if (edge.line && SameEdge(edge.start, edge.end, start, end)) freed.insert(*edge.line);
+    }
+    for (NetworkEdge edge : whole.edges) {
+      if (!edge.line || !freed.contains(*edge.line)) continue;
+      edge.line.reset();
+      network_.edges.push_back(std::move(edge));
+    }
+    std::vector<NetworkLine> kept;
+    for (std::size_t k = 0; k < network_.lines.size(); ++k) {
+      if (!freed.contains(static_cast<int>(k))) kept.push_back(network_.lines[k]);
+    }
+    network_.lines = std::move(kept);
+  }
+
+  // At both ends of an edge, two listed normals that serve one face each of the edge become their mean.
+  void ShareNormals(const TableEdge& edge) {
+    const int a = joined_->face_of[At(edge.faces[0].face)], b = joined_->face_of[At(edge.faces[1].face)];
+    for (const int vertex : {edge.start, edge.end}) {
+      auto& normals = network_.vertices[At(vertex)].normals;
+      const auto serves = [](int face) {
+        return [face](const NetworkVertex::Normal& n) { return std::ranges::count(n.faces, face) > 0; };
+      };
+      const auto first = std::ranges::find_if(normals, serves(a)),
+                 second = std::ranges::find_if(normals, serves(b));
+      if (first == normals.end() || second == normals.end() || first == second) continue;
+      const Vec3 n = first->direction.normalized(), m = second->direction.normalized();
+      const Vec3 mean = n.dot(m) < 0.0 ? Vec3(n - m) : Vec3(n + m);
+      if (!(mean.norm() > 1e-9)) continue;
+      first->direction = mean.normalized();
+      first->faces.insert(first->faces.end(), second->faces.begin(), second->faces.end());
+      std::ranges::sort(first->faces);
+      normals.erase(second);
+    }
+  }
+
   absl::Status CheckFace(int face, const std::string& at) const {
     const int count = static_cast<int>(network_.faces.size());
     if (face >= 0 && face < count) return absl::OkStatus();
@@ -255,14 +465,17 @@ class Editor {
 
   CurveNetwork network_;
   const RunContext& run_;
+  int edit_ = 0;
+  std::vector<ReachedGoal> reached_;
+  Diagnostics findings_;
   ControlStore controls_;                // with the edits; the controls in network_ are older
   std::optional<JoinedNetwork> joined_;  // with the edits; empty after a change
 };
 
 }  // namespace
 
-absl::StatusOr<CurveNetwork> EditNetwork(CurveNetwork network, const std::vector<NetworkEdit>& edits,
-                                         const RunContext& run) {
+absl::StatusOr<EditedNetwork> EditNetwork(CurveNetwork network, const std::vector<NetworkEdit>& edits,
+                                          const RunContext& run) {
   if (edits.size() > kMaxEdits) {
     return absl::InvalidArgumentError(
         fmt::format("edits are {}; must be at most {}", edits.size(), kMaxEdits));
@@ -272,6 +485,7 @@ absl::StatusOr<CurveNetwork> EditNetwork(CurveNetwork network, const std::vector
   for (std::size_t k = 0; k < edits.size(); ++k) {
     PM_RETURN_IF_ERROR(run.Check());
     const std::string at = fmt::format("edits[{}]", k);
+    editor.Begin(static_cast<int>(k));
     PM_RETURN_IF_ERROR(std::visit([&](const auto& edit) { return editor.Apply(edit, at); }, edits[k]));
   }
   return editor.Take();

@@ -9,7 +9,11 @@
 
 #include <absl/status/statusor.h>
 
+#include "core/base/diagnostic.h"
 #include "core/base/run_context.h"
+#include "core/editing/fit_points.h"
+#include "core/editing/goals.h"
+#include "core/editing/split_faces.h"
 #include "core/joining/curve_network.h"
 
 namespace patchmill {
@@ -63,16 +67,57 @@ struct GuideEdit {
   std::optional<Vec3> start, end;  // directions at the ends, any length but 0; else the surface's own
 };
 
-using NetworkEdit =
-    std::variant<PushEdit, NormalEdit, ControlEdit, ControlPointEdit, CurvatureEdit, GuideEdit>;
+// Changes the surface until it meets goals, all at once, by the smallest change [editing, section 7].
+struct ReachEdit {
+  Goals goals;
+};
+
+// Moves a vertex. Edges, faces and, if it is one of a line, the line follow. Normals stay.
+struct VertexEdit {
+  int vertex = 0;
+  Vec3 position = Vec3::Zero();
+  bool by = false;  // `position` is the way, not the place
+};
+
+// Makes an edge a crease, or smooth. An edge of a line becomes an edge of its own, and so do the other
+// edges of the line; all keep their curves. If a crease becomes smooth, the normals of both faces at its
+// ends become their mean.
+struct CreaseEdit {
+  int start = 0, end = 0;
+  bool crease = true;
+};
+
+// Cuts a row of quads in two [editing, section 9]. The curves that are cut stay, and new vertices and faces
+// come after the old ones. The finding FACES_SPLIT says by how much the surface has changed.
+struct SplitEdit {
+  FaceSplit split;
+};
+
+// Moves vertices, normals and the middles of faces until measured points lie within a band of the surface
+// [editing, section 10].
+struct FitEdit {
+  PointFit fit;
+};
+
+using NetworkEdit = std::variant<PushEdit, NormalEdit, ControlEdit, ControlPointEdit, CurvatureEdit,
+                                 GuideEdit, ReachEdit, VertexEdit, CreaseEdit, SplitEdit, FitEdit>;
 
 inline constexpr int kMaxEdits = 1000;
 
-// Errors: INVALID_ARGUMENT with the path of the edit ("edits[2].face = 9; must be in [0, 5]"). The same error
-// is returned if an edit needs the surface before it and the network cannot be joined. Also the errors of
-// `run`, which is checked before each edit. Cost: O(1) for an edit. ControlPointEdit, CurvatureEdit,
-// GuideEdit and a NormalEdit with a face join the network first if it was edited since it was last joined.
-absl::StatusOr<CurveNetwork> EditNetwork(CurveNetwork network, const std::vector<NetworkEdit>& edits,
-                                         const RunContext& run = {});
+struct EditedNetwork {
+  CurveNetwork network;
+  std::vector<ReachedGoal> reached;  // of all goals, in order
+  // FACES_SPLIT, an info. Warnings: GOAL_NOT_REACHED, one for each goal that was missed, goals that
+  // contradict each other among them.
+  Diagnostics findings;
+};
+
+// Errors: INVALID_ARGUMENT with the path of the edit ("edits[2].face = 9; must be in [0, 5]"). The same
+// error is returned if an edit needs the surface before it and the network cannot be joined. Also the
+// errors of `run`, which is checked before each edit. Cost: O(1) for an edit. ControlPointEdit,
+// CurvatureEdit, GuideEdit, ReachEdit and a NormalEdit with a face join the network first if it was edited
+// since it was last joined.
+absl::StatusOr<EditedNetwork> EditNetwork(CurveNetwork network, const std::vector<NetworkEdit>& edits,
+                                          const RunContext& run = {});
 
 }  // namespace patchmill

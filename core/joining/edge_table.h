@@ -58,8 +58,8 @@ struct EdgeTable {
 // Codes of errors: those of CheckEdgeShapes, PATCH_COUNT, NOT_FINITE, TOO_LARGE, INVALID_REFERENCE,
 // FACE_SIDES, DUPLICATE_VERTEX, ZERO_LENGTH_EDGE, DUPLICATE_EDGE, NON_MANIFOLD_EDGE, NON_MANIFOLD_VERTEX,
 // DANGLING_EDGE, CONTRADICTORY_CREASE, INVALID_TWIST, INVALID_NORMAL, INVALID_PUSH, INVALID_BULGE,
-// INVALID_JOIN_TOLERANCE, UNUSED_VERTEX; INVALID_T_VERTEX, T_VERTEX_CYCLE (t_vertices.h). All findings that make sense are reported
-// at once. The table is sound if none of them is an error. Cost O(n log n).
+// INVALID_JOIN_TOLERANCE, UNUSED_VERTEX; INVALID_T_VERTEX, T_VERTEX_CYCLE (t_vertices.h). All findings
+// that make sense are reported at once. The table is sound if none of them is an error. Cost O(n log n).
 EdgeTable BuildEdgeTable(const CurveNetwork& network, Diagnostics& findings);
 
 inline int SideCount(const NetworkFace& face) { return static_cast<int>(face.vertices.size()); }

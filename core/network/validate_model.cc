@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 #include <unordered_map>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -31,6 +32,12 @@ class Faults {
     where.patch_index = index_;
     where.field = fmt::format("patches[{}].{}{}{}", index_, kind_, field.empty() ? "" : ".", field);
     AddAt(code, std::move(where), text);
+  }
+  // As Add, for a field that all kinds share.
+  void AddToPatch(std::string_view code, std::string_view field, std::string_view text) {
+    const std::string_view kind = std::exchange(kind_, field);
+    Add(code, "", text);
+    kind_ = kind;
   }
   void AddToModel(std::string_view code, std::string_view field, std::string_view text) {
     Where where;
@@ -184,21 +191,22 @@ void CheckShape(const BsplinePatch& b, Faults& faults) {
 
 void CheckBulges(const std::vector<Bulge>& bulges, Faults& faults) {
   if (bulges.size() > kMaxBulges) {
-    faults.Add("INVALID_BULGE", "bulges", fmt::format("are {}; at most {}", bulges.size(), kMaxBulges));
+    faults.AddToPatch("INVALID_BULGE", "bulges",
+                      fmt::format("are {}; at most {}", bulges.size(), kMaxBulges));
     return;
   }
   for (const Bulge& b : bulges) {
     const auto inside = [](double t) { return t >= kMinBulgePlace && t <= 1.0 - kMinBulgePlace; };
     if (!inside(b.u) || !inside(b.v)) {
-      faults.Add("INVALID_BULGE", "bulges",
-                 fmt::format("have one at ({:g}, {:g}); both must be in [{:g}, {:g}]", b.u, b.v,
-                             kMinBulgePlace, 1.0 - kMinBulgePlace));
+      faults.AddToPatch("INVALID_BULGE", "bulges",
+                        fmt::format("have one at ({:g}, {:g}); both must be in [{:g}, {:g}]", b.u, b.v,
+                                    kMinBulgePlace, 1.0 - kMinBulgePlace));
       return;
     }
     if (!b.by.allFinite() || b.by.cwiseAbs().maxCoeff() > kMaxCoordinate) {
-      faults.Add("INVALID_BULGE", "bulges",
-                 fmt::format("have one by ({:g}, {:g}, {:g}); must be finite and at most {:g}", b.by.x(),
-                             b.by.y(), b.by.z(), kMaxCoordinate));
+      faults.AddToPatch("INVALID_BULGE", "bulges",
+                        fmt::format("have one by ({:g}, {:g}, {:g}); must be finite and at most {:g}",
+                                    b.by.x(), b.by.y(), b.by.z(), kMaxCoordinate));
       return;
     }
   }

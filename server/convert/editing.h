@@ -19,6 +19,13 @@ absl::StatusOr<std::vector<NetworkEdit>> FromProto(
 // it is, to the bit.
 void WriteEdited(const CurveNetwork& before, const CurveNetwork& after, double unit, v1::CurveNetwork* proto);
 
+// Writes what goals have reached. `unit` is the length unit in mm.
+void AddReached(const EditedNetwork& edited, double unit,
+                google::protobuf::RepeatedPtrField<v1::ReachedGoal>* to);
+// The findings about goals, with the paths of fields in the request.
+Diagnostics GoalFindings(const EditedNetwork& edited,
+                         const google::protobuf::RepeatedPtrField<v1::ModelEdit>& edits);
+
 // Replaces paths of EditNetwork, such as "edits[k].face", by the path of the field in the request.
 absl::Status WithFieldPath(const absl::Status& status,
                            const google::protobuf::RepeatedPtrField<v1::ModelEdit>& edits);

@@ -42,6 +42,12 @@ std::size_t BsplinePoints(const v1::BsplinePatch& patch) {
                                          {patch.degree_v(), View(patch.knots_v())}));
 }
 
+// As HosakaPoints: each bulge cuts a patch both ways. What the patch has without them is `plain`.
+std::size_t WithBulges(const v1::Patch& patch, std::size_t plain) {
+  const auto bulges = static_cast<std::size_t>(patch.bulges_size());
+  return bulges == 0 ? plain : plain + (bulges + 1) * (bulges + 1) * 64 + 2 * bulges * plain;
+}
+
 // As HosakaPoints.
 std::size_t BrownPoints(const v1::BrownPatch& patch) {
   const std::size_t pieces = (Count(patch.breaks_u()) + 1) * (Count(patch.breaks_v()) + 1);
@@ -100,7 +106,8 @@ absl::Status CheckLimits(const v1::PatchModel& proto) {
   std::size_t most = 0;
   int largest = 0;
   for (int i = 0; i < proto.patches_size(); ++i) {
-    const Sizes sizes = SizesOf(proto.patches(i));
+    Sizes sizes = SizesOf(proto.patches(i));
+    sizes.points = WithBulges(proto.patches(i), sizes.points);
     all.points += sizes.points;
     all.knots += sizes.knots;
     if (sizes.points <= most) continue;

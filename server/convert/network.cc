@@ -275,6 +275,16 @@ class NetworkReader {
       return face;
     }
     for (const v1::FacePush& push : from.more_pushes()) face.pushes.push_back(Push(push));
+    if (static_cast<std::size_t>(from.bulges_size()) > kMaxBulges) {
+      Fault("INVALID_BULGE", at + ".bulges",
+            fmt::format("are {}; must be at most {}", from.bulges_size(), kMaxBulges));
+      return face;
+    }
+    for (int k = 0; k < from.bulges_size(); ++k) {
+      const v1::Bulge& bulge = from.bulges(k);
+      face.bulges.push_back(
+          {bulge.u(), bulge.v(), Vector(bulge.by(), unit_, fmt::format("{}.bulges[{}].by", at, k))});
+    }
     switch (from.scheme()) {
       case v1::PATCH_SCHEME_UNSPECIFIED:
         break;

@@ -1,7 +1,10 @@
 #include "server/convert/patches.h"
 
 #include <algorithm>
+#include <utility>
+#include <variant>
 
+#include "core/network/control_points.h"
 #include "server/convert/fields.h"
 #include "server/limits.h"
 
@@ -86,6 +89,7 @@ class PatchReader {
             "g2_gregory, hosaka is required");
         break;
     }
+    ReadBulges(proto, patch.shape);
     return patch;
   }
 
@@ -107,6 +111,30 @@ class PatchReader {
       points[i] = unit_ * Vec3(numbers[k], numbers[k + 1], numbers[k + 2]);
     }
     return points;
+  }
+
+  void ReadBulges(const v1::Patch& from, PatchShape& shape) {
+    if (from.bulges().empty()) return;
+    std::vector<Bulge> bulges;
+    for (const v1::Bulge& bulge : from.bulges()) {
+      const Numbers& by = bulge.by();
+      if (by.size() != 3) {
+        Fault("INVALID_BULGE", "bulges",
+              fmt::format("have one with {} numbers in `by`; must have x y z", by.size()));
+        return;
+      }
+      bulges.push_back({bulge.u(), bulge.v(), unit_ * Vec3(by[0], by[1], by[2])});
+    }
+    std::visit(
+        [&](auto& s) {
+          if constexpr (requires { s.bulges; }) {
+            s.bulges = std::move(bulges);
+          } else {
+            Fault("INVALID_BULGE", "bulges",
+                  "are given; only gregory, brown, g2_gregory and hosaka patches have some");
+          }
+        },
+        shape);
   }
 
   template <class To, class From>
@@ -260,6 +288,12 @@ v1::Patch ToProto(const Patch& patch) {
   to.set_id(Utf8(patch.id));
   if (patch.face) to.set_face_index(patch.face->value);
   std::visit([&](const auto& shape) { Fill(shape, to); }, patch.shape);
+  for (const Bulge& bulge : Bulges(patch.shape)) {
+    v1::Bulge& made = *to.add_bulges();
+    made.set_u(bulge.u);
+    made.set_v(bulge.v);
+    for (int k = 0; k < 3; ++k) made.add_by(bulge.by[k]);
+  }
   return to;
 }
 

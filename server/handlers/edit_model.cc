@@ -23,7 +23,10 @@ void AddChanged(const JoinedNetwork& before, const JoinedNetwork& after, v1::Edi
   std::set<int> changed;
   for (std::size_t f = 0; f < after.model.patches.size(); ++f) {
     const PatchShape &a = before.model.patches[f].shape, &b = after.model.patches[f].shape;
-    if (!std::ranges::equal(ControlPoints(a), ControlPoints(b))) changed.insert(after.face_of[f]);
+    if (!std::ranges::equal(ControlPoints(a), ControlPoints(b)) ||
+        !std::ranges::equal(Bulges(a), Bulges(b))) {
+      changed.insert(after.face_of[f]);
+    }
   }
   response->mutable_changed_faces()->Add(changed.begin(), changed.end());
 }
@@ -43,7 +46,9 @@ absl::Status Edit(const Call& call, const v1::EditModelRequest& request, const R
   const CurveNetwork& before = loaded.checked.network;
   auto edited = EditNetwork(before, edits, run);
   if (!edited.ok()) return WithFieldPath(edited.status(), request.edits());
-  const CurveNetwork after = *std::move(edited);
+  findings(GoalFindings(*edited, request.edits()));
+  AddReached(*edited, loaded.checked.unit, response->mutable_goals());
+  const CurveNetwork after = std::move(edited->network);
   WriteEdited(before, after, loaded.checked.unit, message.mutable_network());
   PM_ASSIGN_OR_RETURN(JoinedNetwork joined, JoinNetwork(after, run));
   findings(joined.findings);

@@ -83,6 +83,13 @@ class Models(unittest.TestCase):
         self.assertEqual(len(edited.patches.patches), 9)
         self.assertTrue(CLIENT.check(edited.model).is_usable)
 
+    def test_edit_by_goals(self):
+        edited = CLIENT.edit(ROOT / "examples/bonnet.json",
+                             pm.ModelEdit(reach_goals=pm.ReachGoals(points=[pm.PointGoal(face=4, u=0.2, v=0.8, distance=1.0)])))
+        self.assertEqual(list(edited.changed_faces), [4])
+        self.assertLess(edited.goals[0].distance, 1e-9)
+        self.assertEqual(edited.goals[0].field, "edits[0].reach_goals.points[0]")
+
     def test_build_a_skin(self):
         heights = (0.0, 3.0, 0.0)
         curves = [pm.OutlineCurve(bezier=pm.BezierCurve(points=[[0, y, 0], [15, y, z + 4], [30, y, 0]]))

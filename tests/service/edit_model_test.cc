@@ -146,6 +146,71 @@ TEST(EditModel, EveryKindOfEdit) {
   EXPECT_THAT(response.changed_faces(), ElementsAre(1, 4, 7));
 }
 
+Vec3 Point(const google::protobuf::RepeatedField<double>& numbers) {
+  return numbers.size() == 3 ? Vec3(numbers[0], numbers[1], numbers[2]) : Vec3::Constant(kInfinity);
+}
+
+TEST(EditModel, GoalsAreReachedInTheModelsUnitAndReported) {
+  for (const auto unit : {v1::LENGTH_UNIT_MILLIMETER, v1::LENGTH_UNIT_INCH}) {
+    const double mm = *MillimetersPer(unit);
+    v1::EditModelRequest request = Sheet(unit);
+    request.set_with_patches(true);
+    v1::EditModelResponse before;
+    ASSERT_TRUE(Edit(request, &before).ok());
+    AddEdits(request, fmt::format(R"({{"reach_goals": {{"points": [
+        {{"face": 4, "u": 0.2, "v": 0.8, "distance": {0}}}, {{"face": 1, "u": 0.5, "v": 0.5, "to": [5, 18, 9]}},
+        {{"face": 1, "u": 0.5, "v": 0.5, "to": [5, 18, 8]}}]}}}})",
+                                  1.0 / mm));
+    v1::EditModelResponse response;
+    const grpc::Status status = Edit(request, &response);
+    ASSERT_TRUE(status.ok()) << status.error_message();
+    EXPECT_THAT(response.changed_faces(), ElementsAre(1, 4));
+    const auto old = FromProto(before.patches(), "m"), made = FromProto(response.patches(), "m");
+    ASSERT_TRUE(old.ok() && made.ok() && made->faults.empty());
+    const SurfaceJet s = Evaluate(old->model.patches[4].shape, 0.2, 0.8);
+    const Vec3 wanted = s.p + s.du.cross(s.dv).normalized();
+    EXPECT_LE((Position(made->model.patches[4].shape, 0.2, 0.8) - wanted).norm(), 1e-9);
+    EXPECT_LE((Position(made->model.patches[1].shape, 0.5, 0.5) - mm * Vec3(5, 18, 8.5)).norm(), 1e-9);
+    ASSERT_EQ(response.goals_size(), 3);
+    EXPECT_EQ(response.goals(0).field(), "edits[0].reach_goals.points[0]");
+    EXPECT_LE((mm * Point(response.goals(0).reached()) - wanted).norm(), 1e-9);
+    EXPECT_FALSE(response.goals(0).missed());
+    EXPECT_NEAR(response.goals(2).distance(), 0.5, 1e-12);
+    EXPECT_TRUE(response.goals(2).missed());
+    ASSERT_EQ(response.diagnostics_size(), 2);
+    EXPECT_EQ(response.diagnostics(1).code(), "GOAL_NOT_REACHED");
+    EXPECT_THAT(response.diagnostics(1).message(), HasSubstr("edits[0].reach_goals.points[2] comes to"));
+    v1::EditModelRequest again;  // the answer edits on
+    *again.mutable_source()->mutable_model() = response.model();
+    again.set_with_patches(true);
+    v1::EditModelResponse same;
+    ASSERT_TRUE(Edit(again, &same).ok());
+    EXPECT_TRUE(MessageDifferencer::Equals(same.model(), response.model()));
+    EXPECT_TRUE(MessageDifferencer::Equals(same.patches(), response.patches()));
+  }
+}
+
+TEST(EditModel, VerticesMoveAndEdgesBecomeCreases) {
+  v1::EditModelRequest request = Sheet(v1::LENGTH_UNIT_INCH);
+  AddEdits(request, R"({"move_vertex": {"vertex": 5, "by": [0, 0, 0.1]}},
+                       {"set_crease": {"start": 10, "end": 9, "crease": true}},
+                       {"reach_goals": {"edges": [{"start": 0, "end": 1, "through": [0.05, 0.25, 0.2]}]}})");
+  v1::EditModelResponse response;
+  const grpc::Status status = Edit(request, &response);
+  ASSERT_TRUE(status.ok()) << status.error_message();
+  const v1::CurveNetwork &was = request.source().model().network(), &is = response.model().network();
+  EXPECT_LE((Point(is.vertices(5).position()) - Point(was.vertices(5).position()) - Vec3(0, 0, 0.1)).norm(),
+            1e-12);
+  EXPECT_EQ(is.lines_size(), was.lines_size() - 1);
+  ASSERT_EQ(is.edges_size(), 3);  // those of the line through 8 9 10 11
+  EXPECT_FALSE(is.edges(0).crease());
+  EXPECT_TRUE(is.edges(1).crease());
+  EXPECT_EQ(is.edges(1).bezier().points_size(), 12);
+  ASSERT_EQ(response.goals_size(), 1);
+  EXPECT_FALSE(response.goals(0).missed());
+  EXPECT_NE(Point(is.vertices(0).position()), Point(was.vertices(0).position()));
+}
+
 TEST(EditModel, WhatCannotBeDoneIsRefusedWithItsPath) {
   const auto refused = [](const std::string& edit, const std::string& text) {
     v1::EditModelRequest request = Sheet();
@@ -160,6 +225,16 @@ TEST(EditModel, WhatCannotBeDoneIsRefusedWithItsPath) {
           "edits[0].turn_normal.direction has 2 numbers");
   refused(R"({"guide_row": {"edges": [{"start": 1, "end": 2}]}})",
           "edits[0].guide_row.edges are 1; must be at least 2");
+  refused(R"({"reach_goals": {"points": [{"face": 1, "u": 0.5, "v": 0.5}]}})",
+          "edits[0].reach_goals.points[0] has neither distance nor to; must have one of them");
+  refused(R"({"reach_goals": {"points": [{"face": 1, "distance": 1}]}})",
+          "edits[0].reach_goals.points[0].u gives the place (0, 0)");
+  refused(R"({"reach_goals": {"edges": [{"start": 0, "end": 1, "through": [1, 2]}]}})",
+          "edits[0].reach_goals.edges[0].through has 2 numbers");
+  refused(R"({"reach_goals": {}})", "edits[0].reach_goals has no goals");
+  refused(R"({"move_vertex": {"vertex": 1, "by": [1, 2, 3], "position": [1, 2, 3]}})",
+          "edits[0].move_vertex has both position and by");
+  refused(R"({"set_crease": {"start": 0, "end": 15}})", "edits[0].set_crease names the edge 0 15");
   v1::EditModelRequest request = Sheet();
   v1::EditModelResponse response;
   request.mutable_source()->mutable_model()->clear_network();

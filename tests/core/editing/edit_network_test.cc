@@ -27,7 +27,7 @@ JoinedNetwork Join(const CurveNetwork& network) {
 CurveNetwork Edited(const CurveNetwork& network, const std::vector<NetworkEdit>& edits) {
   const auto edited = EditNetwork(network, edits);
   EXPECT_TRUE(edited.ok()) << edited.status();
-  return *edited;
+  return edited->network;
 }
 
 // Faces whose patches differ in any bit.

@@ -107,7 +107,8 @@ TEST(Bulge, OutsideItsLimitsIsRefused) {
     PatchShape shape = sound;
     change(std::get<GregoryPatch>(shape).bulges);
     const Diagnostics faults = ValidateModel(testing::Single(shape));
-    return faults.size() == 1 && faults[0].code == "INVALID_BULGE";
+    return faults.size() == 1 && faults[0].code == "INVALID_BULGE" &&
+           faults[0].where.field == "patches[0].bulges";
   };
   EXPECT_TRUE(refused([](auto& b) { b[0].u = 0.0; }));
   EXPECT_TRUE(refused([](auto& b) { b[0].v = std::nan(""); }));
