@@ -14,7 +14,7 @@ constexpr Entry kLists[] = {
     {"setup.obstacles[", "--obstacle"},
     {"setup.machine.", "--machine"},
     {"locks[", "--lock"},
-    {"edits[", "--edits or --push"},
+    {"edits[", "--edits, --push or --move"},
     {"uv[", "--at"},
     {"patch_index[", "--at"},
     {"wall_sides[", "--wall-side"},

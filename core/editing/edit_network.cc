@@ -29,13 +29,16 @@ bool SameEdge(int a, int b, int c, int d) { return std::minmax(a, b) == std::min
 
 class Editor {
  public:
-  Editor(CurveNetwork network, const RunContext& run) : network_(std::move(network)), run_(run) {}
+  Editor(CurveNetwork network, const RunContext& run) : network_(std::move(network)), run_(run) {
+    for (std::size_t k = 0; k < network_.edges.size(); ++k) edge_of_.push_back(static_cast<int>(k));
+  }
 
   absl::Status ReadControls() { return controls_.Read(network_.controls); }
 
   EditedNetwork Take() {
     network_.controls = controls_.List();
-    return {std::move(network_), std::move(reached_), std::move(findings_)};
+    edge_of_.resize(network_.edges.size(), -1);
+    return {std::move(network_), std::move(edge_of_), std::move(reached_), std::move(findings_)};
   }
   void Begin(int edit) { edit_ = edit; }
 
@@ -140,6 +143,34 @@ class Editor {
                                              at, 2 * divided.size(), divided.size(), change),
                                  {.field = at}));
     return absl::OkStatus();
+  }
+
+  absl::Status Apply(const CutEdit& edit, const std::string& at) {
+    PM_RETURN_IF_ERROR(CheckFace(edit.face, at));
+    NetworkFace& face = network_.faces[At(edit.face)];
+    for (const int end : edit.ends) {
+      if (std::ranges::count(face.vertices, end) > 0) continue;
+      return Error(at, fmt::format("names vertex {}, which is no corner of face {}", end, edit.face));
+    }
+    if (!edit.remove) {
+      face.cuts.push_back(edit.ends);
+      return Changed();
+    }
+    const auto same = [&](const std::array<int, 2>& cut) {
+      return SameEdge(cut[0], cut[1], edit.ends[0], edit.ends[1]);
+    };
+    if (std::erase_if(face.cuts, same) == 0) {
+      return Error(at, fmt::format("names the edge {} {}, which is no cut of face {}", edit.ends[0],
+                                   edit.ends[1], edit.face));
+    }
+    for (std::size_t k = network_.edges.size(); k-- > 0;) {  // its curve, if it was given
+      const NetworkEdge& edge = network_.edges[k];
+      if (!SameEdge(edge.start, edge.end, edit.ends[0], edit.ends[1])) continue;
+      edge_of_.resize(network_.edges.size(), -1);
+      network_.edges.erase(network_.edges.begin() + static_cast<std::ptrdiff_t>(k));
+      edge_of_.erase(edge_of_.begin() + static_cast<std::ptrdiff_t>(k));
+    }
+    return Changed();
   }
 
   absl::Status Apply(const FitEdit& edit, const std::string& at) {
@@ -466,6 +497,7 @@ class Editor {
   CurveNetwork network_;
   const RunContext& run_;
   int edit_ = 0;
+  std::vector<int> edge_of_;  // of the edges so far known; edits add others at the end
   std::vector<ReachedGoal> reached_;
   Diagnostics findings_;
   ControlStore controls_;                // with the edits; the controls in network_ are older

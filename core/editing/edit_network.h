@@ -93,6 +93,14 @@ struct SplitEdit {
   FaceSplit split;
 };
 
+// Inserts an edge between two corners of a face, which must leave pieces of three or four sides. Joining says
+// if it does not (INVALID_CUT). Or takes such an edge away, so that the two pieces become one.
+struct CutEdit {
+  int face = 0;
+  std::array<int, 2> ends = {0, 0};
+  bool remove = false;
+};
+
 // Moves vertices, normals and the middles of faces until measured points lie within a band of the surface
 // [editing, section 10].
 struct FitEdit {
@@ -100,12 +108,13 @@ struct FitEdit {
 };
 
 using NetworkEdit = std::variant<PushEdit, NormalEdit, ControlEdit, ControlPointEdit, CurvatureEdit,
-                                 GuideEdit, ReachEdit, VertexEdit, CreaseEdit, SplitEdit, FitEdit>;
+                                 GuideEdit, ReachEdit, VertexEdit, CreaseEdit, SplitEdit, CutEdit, FitEdit>;
 
 inline constexpr int kMaxEdits = 1000;
 
 struct EditedNetwork {
   CurveNetwork network;
+  std::vector<int> edge_of;          // of each edge its place before the edits, -1 for a new one
   std::vector<ReachedGoal> reached;  // of all goals, in order
   // FACES_SPLIT, an info. Warnings: GOAL_NOT_REACHED, one for each goal that was missed, goals that
   // contradict each other among them.

@@ -48,7 +48,7 @@ class Fitter {
     constexpr int kSteps = 20;
     PM_RETURN_IF_ERROR(Check());
     PM_ASSIGN_OR_RETURN(JoinedNetwork joined, Join(network_));
-    std::vector<Foot> feet = FeetOn(joined);
+    PM_ASSIGN_OR_RETURN(std::vector<Foot> feet, FeetOn(joined));
     PM_ASSIGN_OR_RETURN(const std::vector<Unknown> unknowns, Unknowns(joined, feet));
     double left = Excess(feet).norm();
     for (int k = 0; k < kSteps && left > 1e-12 * size_; ++k) {
@@ -78,7 +78,7 @@ class Fitter {
         absl::StatusOr<JoinedNetwork> there = Join(moved);
         if (absl::IsInvalidArgument(there.status())) continue;  // too far: the faces fold
         PM_RETURN_IF_ERROR(there.status());
-        std::vector<Foot> next = FeetOn(*there);
+        PM_ASSIGN_OR_RETURN(std::vector<Foot> next, FeetOn(*there));
         const double after = Excess(next).norm();
         better = after < 0.999 * left;
         if (better) network_ = std::move(moved), feet = std::move(next), left = after;
@@ -123,7 +123,7 @@ class Fitter {
   }
 
   // The nearest places on quads. A coarse grid tells the three faces that are asked.
-  std::vector<Foot> FeetOn(const JoinedNetwork& joined) const {
+  absl::StatusOr<std::vector<Foot>> FeetOn(const JoinedNetwork& joined) const {
     constexpr int kGrid = 6;
     constexpr std::size_t kAsked = 3;
     std::vector<std::pair<int, Vec3>> grid;
@@ -138,6 +138,7 @@ class Fitter {
     }
     std::vector<Foot> feet;
     for (const Vec3& point : fit_.points) {
+      PM_RETURN_IF_ERROR(run_.Check());
       std::vector<std::pair<double, int>> near;  // the best of each face
       for (const auto& [face, p] : grid) {
         const double d = (p - point).squaredNorm();

@@ -19,14 +19,14 @@ struct PointFit {
   bool middles = true;  // the middles of faces may rise or sink, by bulges
 };
 
-inline constexpr std::size_t kMaxFitPoints = 10'000;
+inline constexpr std::size_t kMaxFitPoints = 2000;
 inline constexpr std::size_t kMaxFitUnknowns = 400;
 
 // The quads nearest to the points and their vertices move. Each vertex goes along its normal. Steps of
 // Gauss-Newton, each the smallest one, with differences of the joined surface, until no point is outside
-// the band or nothing gets better. What was reached comes back in the order of the points. INVALID_ARGUMENT
-// "<at>.points ..." for what cannot be. Also the errors of `run`, which is polled before each join. Cost: a
-// join for each unknown and step.
+// the band or nothing gets better. What was reached comes back in the order of the points.
+// INVALID_ARGUMENT "<at>.points ..." for what cannot be. Also the errors of `run`, which is polled before
+// each join and for each point. Cost: a join for each unknown and step.
 absl::StatusOr<std::vector<ReachedGoal>> FitPoints(const PointFit& fit, const std::string& at,
                                                    const RunContext& run, CurveNetwork& network);
 

@@ -160,7 +160,7 @@ class Reacher {
 }  // namespace
 
 Vec2 NearestPlace(const PatchShape& quad, const Vec3& p) {
-  constexpr int kSteps = 24, kIterations = 40;
+  constexpr int kSteps = 12, kIterations = 40;
   Vec2 best(0.5, 0.5);
   double least = kInfinity;
   for (int i = 0; i <= kSteps; ++i) {

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <optional>
-#include <type_traits>
-#include <variant>
 
 #include <absl/strings/match.h>
 #include <absl/strings/numbers.h>
@@ -42,6 +40,16 @@ class EditReader {
         return MoveVertex(edit.move_vertex(), At(at, "move_vertex"));
       case v1::ModelEdit::kSetCrease:
         return CreaseEdit{edit.set_crease().start(), edit.set_crease().end(), edit.set_crease().crease()};
+      case v1::ModelEdit::kSplitFaces: {
+        const v1::SplitFaces& split = edit.split_faces();
+        return SplitEdit{{split.start(), split.end(), split.has_parameter() ? split.parameter() : 0.5}};
+      }
+      case v1::ModelEdit::kCutFace:
+        return CutEdit{edit.cut_face().face(),
+                       {edit.cut_face().start(), edit.cut_face().end()},
+                       edit.cut_face().remove()};
+      case v1::ModelEdit::kFitPoints:
+        return Fit(edit.fit_points(), At(at, "fit_points"));
       case v1::ModelEdit::EDIT_NOT_SET:
         break;
     }
@@ -109,6 +117,20 @@ class EditReader {
     return edit;
   }
 
+  NetworkEdit Fit(const v1::FitPoints& from, const std::string& at) {
+    FitEdit edit;
+    if (from.points_size() % 3 != 0) {
+      errors_.Add(At(at, "points"), fmt::format("has {} numbers; must be packed x y z", from.points_size()));
+    }
+    for (int k = 0; k + 2 < from.points_size(); k += 3) {
+      edit.fit.points.push_back(unit_ * Vec3(from.points(k), from.points(k + 1), from.points(k + 2)));
+    }
+    edit.fit.band = unit_ * from.band();
+    edit.fit.normals = !from.keep_normals();
+    edit.fit.middles = !from.keep_middles();
+    return edit;
+  }
+
   NetworkEdit MoveVertex(const v1::MoveVertex& from, const std::string& at) {
     OneOf(at, {"position", !from.position().empty()}, {"by", !from.by().empty()});
     if (from.by().empty() && from.position().empty()) return VertexEdit{};
@@ -147,11 +169,6 @@ void Put(const Vec3& v, Numbers* to) {
   for (int k = 0; k < 3; ++k) to->Add(v[k]);
 }
 
-bool Same(const std::vector<NetworkVertex::Normal>& a, const std::vector<NetworkVertex::Normal>& b) {
-  return std::ranges::equal(
-      a, b, [](const auto& x, const auto& y) { return x.direction == y.direction && x.faces == y.faces; });
-}
-
 }  // namespace
 
 absl::StatusOr<std::vector<NetworkEdit>> FromProto(
@@ -165,173 +182,6 @@ absl::StatusOr<std::vector<NetworkEdit>> FromProto(
   for (int k = 0; k < edits.size(); ++k) list.push_back(reader.Read(edits[k], fmt::format("edits[{}]", k)));
   PM_RETURN_IF_ERROR(errors.ToStatus());
   return list;
-}
-
-namespace {
-
-bool Same(const HermiteCurve& a, const HermiteCurve& b) {
-  return a.p0 == b.p0 && a.d0 == b.d0 && a.p1 == b.p1 && a.d1 == b.d1;
-}
-bool Same(const BezierCurve& a, const BezierCurve& b) { return a.points == b.points; }
-bool Same(const BsplineCurve& a, const BsplineCurve& b) {
-  return a.degree == b.degree && a.knots == b.knots && a.points == b.points;
-}
-bool Same(const HosakaSegment& a, const HosakaSegment& b) {
-  return a.origin == b.origin && a.a == b.a && a.b == b.b && a.c == b.c && a.extra == b.extra;
-}
-
-// Whether an edit has left the shape as it was. Edits change tangents and curves only.
-bool Same(const EdgeShape& a, const EdgeShape& b) {
-  if (a.index() != b.index()) return false;
-  if (const auto* tangents = std::get_if<TangentsEdge>(&a)) {
-    const auto& other = std::get<TangentsEdge>(b);
-    return tangents->start == other.start && tangents->end == other.end;
-  }
-  const auto* curve = std::get_if<CurveEdge>(&a);
-  if (curve == nullptr) return true;
-  const Curve& other = std::get<CurveEdge>(b).curve;
-  if (curve->curve.index() != other.index()) return false;
-  return std::visit([&](const auto& c) { return Same(c, std::get<std::decay_t<decltype(c)>>(other)); },
-                    curve->curve);
-}
-
-void AddPoints(const std::vector<Vec3>& points, double unit, Numbers* to) {
-  for (const Vec3& p : points) {
-    for (int k = 0; k < 3; ++k) to->Add(p[k] / unit);
-  }
-}
-
-void WriteShape(const EdgeShape& shape, double unit, v1::NetworkEdge& to) {
-  if (const auto* tangents = std::get_if<TangentsEdge>(&shape)) {
-    Put(tangents->start / unit, to.mutable_from_tangents()->mutable_start_tangent());
-    Put(tangents->end / unit, to.mutable_from_tangents()->mutable_end_tangent());
-    return;
-  }
-  const auto* given = std::get_if<CurveEdge>(&shape);
-  if (given == nullptr) return;
-  if (const auto* spline = std::get_if<BsplineCurve>(&given->curve)) {
-    v1::BsplineCurve& made = *to.mutable_bspline();
-    made.Clear();
-    made.set_degree(spline->degree);
-    made.mutable_knots()->Add(spline->knots.begin(), spline->knots.end());
-    AddPoints(spline->points, unit, made.mutable_points());
-    return;
-  }
-  const auto bezier = ToBezier(given->curve);
-  if (!bezier.ok()) return;  // no other curve has several spans
-  to.mutable_bezier()->clear_points();
-  AddPoints(bezier->points, unit, to.mutable_bezier()->mutable_points());
-}
-
-// Edits change edges in their places and add others at the end.
-void WriteEdges(const CurveNetwork& before, const CurveNetwork& after, double unit, v1::CurveNetwork* proto) {
-  for (std::size_t k = 0; k < after.edges.size(); ++k) {
-    const NetworkEdge& edge = after.edges[k];
-    const NetworkEdge* old = k < before.edges.size() ? &before.edges[k] : nullptr;
-    if (old != nullptr && old->start == edge.start && old->end == edge.end && old->crease == edge.crease &&
-        Same(old->shape, edge.shape)) {
-      continue;
-    }
-    v1::NetworkEdge& to = old != nullptr ? *proto->mutable_edges(static_cast<int>(k)) : *proto->add_edges();
-    to.set_start(edge.start);
-    to.set_end(edge.end);
-    to.set_crease(edge.crease);
-    if (old == nullptr || !Same(old->shape, edge.shape)) WriteShape(edge.shape, unit, to);
-  }
-}
-
-// Edits may remove lines; the others keep their order.
-void WriteLines(const CurveNetwork& after, v1::CurveNetwork* proto) {
-  if (static_cast<int>(after.lines.size()) == proto->lines_size()) return;
-  google::protobuf::RepeatedPtrField<v1::NetworkLine> kept;
-  std::size_t next = 0;
-  for (const v1::NetworkLine& line : proto->lines()) {
-    if (next == after.lines.size() || !std::ranges::equal(after.lines[next].vertices, line.vertices()))
-      continue;
-    *kept.Add() = line;
-    ++next;
-  }
-  proto->mutable_lines()->Swap(&kept);
-}
-
-}  // namespace
-
-void WriteEdited(const CurveNetwork& before, const CurveNetwork& after, double unit,
-                 v1::CurveNetwork* proto) {
-  for (int i = 0; i < proto->vertices_size(); ++i) {
-    const Vec3 &was = before.vertices[static_cast<std::size_t>(i)].position,
-               &is = after.vertices[static_cast<std::size_t>(i)].position;
-    if (was != is) Put(is / unit, proto->mutable_vertices(i)->mutable_position());
-    const auto& normals = after.vertices[static_cast<std::size_t>(i)].normals;
-    if (Same(before.vertices[static_cast<std::size_t>(i)].normals, normals)) continue;
-    auto* list = proto->mutable_vertices(i)->mutable_normals();
-    list->Clear();
-    for (const NetworkVertex::Normal& normal : normals) {
-      v1::VertexNormal& to = *list->Add();
-      Put(normal.direction, to.mutable_direction());
-      to.mutable_faces()->Add(normal.faces.begin(), normal.faces.end());
-    }
-  }
-  for (int i = 0; i < proto->faces_size(); ++i) {
-    const auto &old = before.faces[static_cast<std::size_t>(i)].pushes,
-               &pushes = after.faces[static_cast<std::size_t>(i)].pushes;
-    for (std::size_t k = old.size(); k < pushes.size(); ++k) {  // edits add pushes at the end
-      v1::NetworkFace& face = *proto->mutable_faces(i);
-      v1::FacePush& to = k == 0 ? *face.mutable_push() : *face.add_more_pushes();
-      to.set_u(pushes[k].u);
-      to.set_v(pushes[k].v);
-      to.set_amount(pushes[k].amount * unit);
-    }
-  }
-  for (int i = 0; i < proto->faces_size(); ++i) {
-    const auto &was = before.faces[static_cast<std::size_t>(i)].bulges,
-               &is = after.faces[static_cast<std::size_t>(i)].bulges;
-    if (was == is) continue;
-    auto* list = proto->mutable_faces(i)->mutable_bulges();
-    list->Clear();
-    for (const Bulge& bulge : is) {
-      v1::Bulge& to = *list->Add();
-      to.set_u(bulge.u);
-      to.set_v(bulge.v);
-      Put(bulge.by / unit, to.mutable_by());
-    }
-  }
-  WriteEdges(before, after, unit, proto);
-  WriteLines(after, proto);
-  if (before.controls == after.controls) return;
-  std::vector<v1::EdgeControl> given;  // in the order of before.controls: those of edges, then the others
-  for (v1::NetworkEdge& edge : *proto->mutable_edges()) {
-    for (const v1::CrossControl& control : edge.controls()) {
-      v1::EdgeControl& to = given.emplace_back();
-      to.set_start(edge.start());
-      to.set_end(edge.end());
-      *to.mutable_control() = control;
-    }
-    edge.clear_controls();
-  }
-  given.insert(given.end(), proto->controls().begin(), proto->controls().end());
-  proto->clear_controls();
-  std::size_t from = 0;
-  for (const CrossControl& control : after.controls) {
-    const auto same_place = [&](const CrossControl& old) {
-      return old.start == control.start && old.end == control.end && old.face == control.face;
-    };
-    std::size_t k = from;  // controls that stay keep their order
-    while (k < before.controls.size() && !same_place(before.controls[k])) ++k;
-    if (k < before.controls.size()) {
-      from = k + 1;
-      if (before.controls[k] == control) {
-        *proto->add_controls() = given[k];
-        continue;
-      }
-    }
-    v1::EdgeControl& to = *proto->add_controls();
-    to.set_start(control.start);
-    to.set_end(control.end);
-    to.mutable_control()->set_face(control.face);
-    if (control.first) Put(*control.first / unit, to.mutable_control()->mutable_first_derivative());
-    if (control.second) Put(*control.second / unit, to.mutable_control()->mutable_second_derivative());
-  }
 }
 
 namespace {
@@ -352,14 +202,29 @@ std::string RequestPath(const std::string& path,
 
 }  // namespace
 
+namespace {
+
+const char* ListOf(GoalKind kind) {
+  switch (kind) {
+    case GoalKind::kPoint:
+      return "reach_goals.points";
+    case GoalKind::kEdge:
+      return "reach_goals.edges";
+    case GoalKind::kFullness:
+      return "reach_goals.fullness";
+    case GoalKind::kFit:
+      return "fit_points.points";
+  }
+  return "";
+}
+
+}  // namespace
+
 void AddReached(const EditedNetwork& edited, double unit,
                 google::protobuf::RepeatedPtrField<v1::ReachedGoal>* to) {
   for (const ReachedGoal& goal : edited.reached) {
     v1::ReachedGoal& made = *to->Add();
-    const char* list = goal.kind == GoalKind::kPoint  ? "points"
-                       : goal.kind == GoalKind::kEdge ? "edges"
-                                                      : "fullness";
-    made.set_field(fmt::format("edits[{}].reach_goals.{}[{}]", goal.edit, list, goal.goal));
+    made.set_field(fmt::format("edits[{}].{}[{}]", goal.edit, ListOf(goal.kind), goal.goal));
     Put(goal.target / unit, made.mutable_target());
     Put(goal.reached / unit, made.mutable_reached());
     made.set_distance(goal.distance / unit);

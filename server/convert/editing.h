@@ -1,4 +1,4 @@
-// v1.ModelEdit -> NetworkEdit, and an edited network back into its message.
+// v1.ModelEdit -> NetworkEdit, and what edits have reached back into messages.
 #pragma once
 
 #include <vector>
@@ -14,10 +14,6 @@ namespace patchmill {
 // RESOURCE_EXHAUSTED if there are too many edits.
 absl::StatusOr<std::vector<NetworkEdit>> FromProto(
     const google::protobuf::RepeatedPtrField<v1::ModelEdit>& edits, double unit);
-
-// `proto` is the message of `before`. Writes into it everything that differs in `after`. The rest stays as
-// it is, to the bit.
-void WriteEdited(const CurveNetwork& before, const CurveNetwork& after, double unit, v1::CurveNetwork* proto);
 
 // Writes what goals have reached. `unit` is the length unit in mm.
 void AddReached(const EditedNetwork& edited, double unit,

@@ -12,7 +12,6 @@
 #include "core/io/obj.h"
 #include "core/joining/join_network.h"
 #include "core/joining/network_findings.h"
-#include "server/convert/editing.h"
 #include "server/convert/fields.h"
 #include "server/convert/first_surface.h"
 #include "server/convert/model.h"
@@ -20,6 +19,7 @@
 #include "server/convert/network_message.h"
 #include "server/convert/outline_curves.h"
 #include "server/convert/report.h"
+#include "server/convert/write_edited.h"
 #include "server/handlers/handlers.h"
 #include "server/handlers/prepare.h"
 
@@ -42,7 +42,7 @@ absl::Status TakeNormals(const v1::BuildModelRequest& request, double unit, Patc
   v1::PatchModel& to = *response->mutable_network_model();
   to.set_length_unit(request.length_unit());
   *to.mutable_network() = request.network();
-  WriteEdited(before, made.network, unit, to.mutable_network());
+  WriteEdited(before, made.network, {unit}, to.mutable_network());
   response->set_max_distance_mm(made.max_distance);
   response->set_farthest_vertex(made.farthest_vertex);
   PM_ASSIGN_OR_RETURN(const JoinedNetwork joined, JoinNetwork(made.network, run));

@@ -11,6 +11,7 @@
 #include "server/convert/editing.h"
 #include "server/convert/joints.h"
 #include "server/convert/report.h"
+#include "server/convert/write_edited.h"
 #include "server/handlers/handlers.h"
 #include "server/handlers/prepare.h"
 #include "server/limits.h"
@@ -18,15 +19,17 @@
 namespace patchmill {
 namespace {
 
+bool SamePatch(const PatchShape& a, const PatchShape& b) {
+  return std::ranges::equal(ControlPoints(a), ControlPoints(b)) && std::ranges::equal(Bulges(a), Bulges(b));
+}
+
+// Faces that an edit has added count as changed.
 void AddChanged(const JoinedNetwork& before, const JoinedNetwork& after, v1::EditModelResponse* response) {
-  if (before.model.patches.size() != after.model.patches.size()) return;
   std::set<int> changed;
   for (std::size_t f = 0; f < after.model.patches.size(); ++f) {
-    const PatchShape &a = before.model.patches[f].shape, &b = after.model.patches[f].shape;
-    if (!std::ranges::equal(ControlPoints(a), ControlPoints(b)) ||
-        !std::ranges::equal(Bulges(a), Bulges(b))) {
-      changed.insert(after.face_of[f]);
-    }
+    const bool known = f < before.model.patches.size() && before.face_of[f] == after.face_of[f];
+    if (known && SamePatch(before.model.patches[f].shape, after.model.patches[f].shape)) continue;
+    changed.insert(after.face_of[f]);
   }
   response->mutable_changed_faces()->Add(changed.begin(), changed.end());
 }
@@ -49,7 +52,7 @@ absl::Status Edit(const Call& call, const v1::EditModelRequest& request, const R
   findings(GoalFindings(*edited, request.edits()));
   AddReached(*edited, loaded.checked.unit, response->mutable_goals());
   const CurveNetwork after = std::move(edited->network);
-  WriteEdited(before, after, loaded.checked.unit, message.mutable_network());
+  WriteEdited(before, after, {loaded.checked.unit, edited->edge_of}, message.mutable_network());
   PM_ASSIGN_OR_RETURN(JoinedNetwork joined, JoinNetwork(after, run));
   findings(joined.findings);
   if (HasError(joined.findings)) return absl::OkStatus();
@@ -58,7 +61,7 @@ absl::Status Edit(const Call& call, const v1::EditModelRequest& request, const R
     return absl::OkStatus();
   }
   PM_ASSIGN_OR_RETURN(const JoinedNetwork joined_before, JoinNetwork(before, run));
-  AddChanged(joined_before, joined, response);
+  if (!joined_before.model.patches.empty()) AddChanged(joined_before, joined, response);
   if (request.with_patches()) *response->mutable_patches() = ToProto(joined.model);
   if (request.continuity_steps() == 0) return absl::OkStatus();
   PM_ASSIGN_OR_RETURN(const PatchNetwork network, BuildNetwork(std::move(joined.model), run));

@@ -62,6 +62,8 @@ TEST(CliEdit, SaysWhatIsWrongAndWritesNothing) {
     EXPECT_THAT(run.err, HasSubstr(text));
   };
   fails({"--push", "1,2,3"}, 2, "must be FACE,U,V,AMOUNT");
+  fails({"--move", "1,2,3"}, 2, "must be FACE,U,V,DISTANCE");
+  fails({"--move", "12,0,0.5,1"}, 2, "edits[0].reach_goals.points[0].u gives the place (0, 0.5)");
   fails({"--push", "99,0,0,1"}, 2, "edits[0].push_face.face = 99; must be in [0, 31]");
   fails({"--edits", out / "none.json"}, 2, "none.json");
   fails({"--push", "1,7,0,1"}, 1, "INVALID_PUSH");

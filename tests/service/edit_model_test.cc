@@ -211,6 +211,77 @@ TEST(EditModel, VerticesMoveAndEdgesBecomeCreases) {
   EXPECT_NE(Point(is.vertices(0).position()), Point(was.vertices(0).position()));
 }
 
+TEST(EditModel, RowsAreSplitAndTheAnswerEditsOn) {
+  v1::EditModelRequest request = Sheet(v1::LENGTH_UNIT_INCH);
+  AddEdits(request, R"({"split_faces": {"start": 5, "end": 6, "parameter": 0.4}})");
+  request.set_with_patches(true);
+  request.set_continuity_steps(20);
+  v1::EditModelResponse response;
+  const grpc::Status status = Edit(request, &response);
+  ASSERT_TRUE(status.ok()) << status.error_message();
+  ASSERT_EQ(response.diagnostics_size(), 1);
+  EXPECT_EQ(response.diagnostics(0).code(), "FACES_SPLIT");
+  EXPECT_THAT(response.diagnostics(0).message(), HasSubstr("edits[0].split_faces makes 6 faces of 3"));
+  EXPECT_EQ(response.model().network().faces_size(), 12);
+  EXPECT_EQ(response.model().network().vertices_size(), 20);
+  EXPECT_EQ(response.patches().patches_size(), 12);
+  EXPECT_THAT(response.changed_faces(), ::testing::IsSupersetOf({1, 4, 7, 9, 10, 11}));
+  ASSERT_EQ(response.joints_size(), 17);
+  for (const v1::EdgeContinuity& joint : response.joints()) {
+    EXPECT_LE(joint.max_curvature_gap_per_mm(), 1e-8 * joint.max_curvature_per_mm());
+  }
+  v1::EditModelRequest again;
+  *again.mutable_source()->mutable_model() = response.model();
+  again.set_with_patches(true);
+  v1::EditModelResponse same;
+  ASSERT_TRUE(Edit(again, &same).ok());
+  EXPECT_EQ(same.diagnostics_size(), 0);
+  const auto a = FromProto(response.patches(), "m"), b = FromProto(same.patches(), "m");
+  ASSERT_TRUE(a.ok() && b.ok());
+  for (std::size_t f = 0; f < 12; ++f) {
+    EXPECT_LE((Position(a->model.patches[f].shape, 0.3, 0.6) - Position(b->model.patches[f].shape, 0.3, 0.6))
+                  .norm(),
+              1e-11);
+  }
+}
+
+TEST(EditModel, ACutIsTakenAwayWithItsCurve) {
+  v1::EditModelRequest request = Sheet();
+  v1::CurveNetwork& network = *request.mutable_source()->mutable_model()->mutable_network();
+  network.clear_lines();
+  for (v1::NetworkFace& face : *network.mutable_faces()) face.clear_scheme();
+  v1::EditModelRequest cut = request;
+  for (const auto& [start, end] : {std::pair(0, 5), std::pair(5, 6)}) {
+    v1::NetworkEdge& edge = *cut.mutable_source()->mutable_model()->mutable_network()->add_edges();
+    edge.set_id(std::to_string(start));
+    edge.set_start(start);
+    edge.set_end(end);
+  }
+  v1::FaceCut& made = *cut.mutable_source()->mutable_model()->mutable_network()->mutable_faces(0)->add_cuts();
+  made.set_start(0);
+  made.set_end(5);
+  AddEdits(cut, R"({"cut_face": {"face": 0, "start": 5, "end": 0, "remove": true}})");
+  v1::EditModelResponse response;
+  const grpc::Status status = Edit(cut, &response);
+  ASSERT_TRUE(status.ok()) << status.error_message();
+  EXPECT_EQ(response.model().network().faces(0).cuts_size(), 0);
+  ASSERT_EQ(response.model().network().edges_size(), 1);
+  EXPECT_EQ(response.model().network().edges(0).id(), "5");
+}
+
+TEST(EditModel, MeasuredPointsAreFitted) {
+  v1::EditModelRequest request = Sheet(v1::LENGTH_UNIT_INCH);
+  AddEdits(request, R"({"fit_points": {"points": [0.6, 0.7, 0.2, 0.5, 0.7, 0.2], "band": 0.01}},
+                       {"cut_face": {"face": 0, "start": 0, "end": 5}})");
+  v1::EditModelResponse response;
+  const grpc::Status status = Edit(request, &response);
+  ASSERT_TRUE(status.ok()) << status.error_message();
+  ASSERT_EQ(response.goals_size(), 2);
+  EXPECT_EQ(response.goals(1).field(), "edits[0].fit_points.points[1]");
+  EXPECT_LE(response.goals(1).distance(), 0.0101);
+  EXPECT_EQ(response.model().network().faces(0).cuts_size(), 1);
+}
+
 TEST(EditModel, WhatCannotBeDoneIsRefusedWithItsPath) {
   const auto refused = [](const std::string& edit, const std::string& text) {
     v1::EditModelRequest request = Sheet();
@@ -234,6 +305,9 @@ TEST(EditModel, WhatCannotBeDoneIsRefusedWithItsPath) {
   refused(R"({"reach_goals": {}})", "edits[0].reach_goals has no goals");
   refused(R"({"move_vertex": {"vertex": 1, "by": [1, 2, 3], "position": [1, 2, 3]}})",
           "edits[0].move_vertex has both position and by");
+  refused(R"({"split_faces": {"start": 0, "end": 1, "parameter": 1}})", "edits[0].split_faces.parameter = 1");
+  refused(R"({"cut_face": {"face": 0, "start": 0, "end": 15}})", "edits[0].cut_face names vertex 15");
+  refused(R"({"fit_points": {"points": [1, 2]}})", "edits[0].fit_points.points has 2 numbers");
   refused(R"({"set_crease": {"start": 0, "end": 15}})", "edits[0].set_crease names the edge 0 15");
   v1::EditModelRequest request = Sheet();
   v1::EditModelResponse response;

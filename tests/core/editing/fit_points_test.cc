@@ -102,7 +102,7 @@ TEST(FitEdit, WhatCannotBeFittedIsRefused) {
   EXPECT_EQ(refusal({}), "edits[0].points are missing");
   EXPECT_NE(refusal({{Vec3(1, 2, kInfinity)}}).find("edits[0].points[0] must be finite"), std::string::npos);
   EXPECT_NE(refusal({{Vec3(1, 2, 3)}, -1.0}).find("edits[0].band = -1"), std::string::npos);
-  EXPECT_NE(refusal({std::vector<Vec3>(kMaxFitPoints + 1, Vec3::Zero())}).find("at most 10000"),
+  EXPECT_NE(refusal({std::vector<Vec3>(kMaxFitPoints + 1, Vec3::Zero())}).find("at most 2000"),
             std::string::npos);
 }
 

@@ -151,6 +151,31 @@ TEST(SplitEdit, GoesRoundAClosedRow) {
   EXPECT_LE(Change(edited), 1e-9);  // straight along: the halves are the same cylinders
 }
 
+TEST(CutEdit, IsPutInAndTakenOutAgain) {
+  CurveNetwork network = Waves(PatchScheme::kAuto);
+  NetworkEdge given;  // the curve of a cut that comes and goes, between two others
+  given.start = 5, given.end = 0;
+  NetworkEdge other;
+  other.start = 5, other.end = 6;
+  network.edges = {other};
+  const EditedNetwork cut = Edited(network, {CutEdit{0, {0, 5}}});
+  EXPECT_EQ(Join(cut.network).model.patches.size(), 7u);
+  ExpectSmooth(Join(cut.network), false);
+  CurveNetwork with_curve = cut.network;
+  with_curve.edges = {given, other};
+  const EditedNetwork merged = Edited(with_curve, {CutEdit{0, {5, 0}, true}, CreaseEdit{6, 7}});
+  EXPECT_EQ(merged.edge_of, (std::vector<int>{1, -1}));
+  EXPECT_TRUE(merged.network.faces[0].cuts.empty());
+  const JoinedNetwork again = JoinNetwork(Edited(with_curve, {CutEdit{0, {5, 0}, true}}).network),
+                      plain = Join(network);
+  for (std::size_t f = 0; f < 6; ++f) {
+    EXPECT_EQ(Position(again.model.patches[f].shape, 0.3, 0.4),
+              Position(plain.model.patches[f].shape, 0.3, 0.4));
+  }
+  const std::string refusal(EditNetwork(network, {CutEdit{0, {0, 5}, true}}).status().message());
+  EXPECT_EQ(refusal, "edits[0] names the edge 0 5, which is no cut of face 0");
+}
+
 TEST(SplitEdit, WhatCannotBeSplitIsRefused) {
   const auto refusal = [](const CurveNetwork& network, const FaceSplit& split) {
     return std::string(EditNetwork(network, {SplitEdit{split}}).status().message());
