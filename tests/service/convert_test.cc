@@ -284,7 +284,7 @@ TEST(CliConvert, EveryCommandReadsWhatItWrites) {
 TEST(CliConvert, SaysWhatItCannotDo) {
   const TempDir dir;
   const std::string bump = dir.Write("bump.pb", testing::Bump().SerializeAsString());
-  for (const char* name : {"out.stl", "out", "out.step", "out.pb.gz"}) {
+  for (const char* name : {"out.dxf", "out", "out.step.gz", "out.pb.gz"}) {
     const Finished run = Patchmill({"convert", bump, dir / name});
     EXPECT_EQ(run.status, 2);
     EXPECT_THAT(run.err, HasSubstr(std::string(name) + "; must end in .json or .pb"));
