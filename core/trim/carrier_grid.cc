@@ -196,7 +196,7 @@ std::optional<GridFoot> FootOnGrid(const CarrierGrid& grid, const Vec3& place, c
   Vec2 at = start;
   GridCell cell = CellAt(grid, at);
   int moves = 0;
-  double last_step = kInfinity;
+  double last_step = kInfinity, last_way = kInfinity;  // mm: by parameters, and of the place itself
   for (int round = 0; round < 60; ++round) {
     const SurfaceJet jet = JetAt(grid, cell, at);
     const Vec3 off = place - jet.p;
@@ -256,6 +256,13 @@ std::optional<GridFoot> FootOnGrid(const CarrierGrid& grid, const Vec3& place, c
       return GridFoot{at, p, (place - p).norm()};
     }
     last_step = length;
+    last_way = (moved.x() * jet.du + moved.y() * jet.dv).norm();
+  }
+  // Where both parameters run in one direction, as where a side of a strip is tangent to the next one, the
+  // parameters settle slowly. The place has settled long before.
+  if (last_way <= 1e-11 * grid.size) {
+    const Vec3 p = JetAt(grid, cell, at).p;
+    return GridFoot{at, p, (place - p).norm()};
   }
   return std::nullopt;
 }

@@ -92,6 +92,25 @@ TEST(CarrierGrid, FeetFromFarAwayStarts) {
   }
 }
 
+// x = u^2, y = u + v: both parameters run along y on the side u = 0.
+TEST(CarrierGrid, FeetOnASideWithoutAParametrisation) {
+  BrepSpline spline;
+  spline.patch = {2, 1, {0, 0, 0, 1, 1, 1}, {0, 0, 1, 1}, {}, {}};
+  for (const Vec2& at : {Vec2(0, 0), Vec2(0, 0.5), Vec2(1, 1)}) {
+    for (const double v : {0.0, 1.0}) spline.patch.points.emplace_back(30 * at.x(), 30 * (at.y() + v), 0);
+  }
+  const CarrierGrid grid = CarriersOf(spline, {0, 0}, {1, 1});
+  for (int k = 0; k <= 20; ++k) {
+    const double v = 0.05 + 0.045 * k;
+    for (const double u : {0.0, 0.02, 0.2}) {
+      const Vec3 place = PositionAt(grid, {0.0, v});
+      const auto foot = FootOnGrid(grid, place, {u, std::max(0.0, v - u)});
+      ASSERT_TRUE(foot) << v << " " << u;
+      EXPECT_LE(foot->distance, 1e-9) << v << " " << u;
+    }
+  }
+}
+
 TEST(CarrierGrid, AConeEndsAtItsApex) {
   const BrepCone cone{TiltedFrame(), 4, 0.4};
   const double apex = -4 / std::sin(0.4);
