@@ -165,7 +165,7 @@ class DescentWatch {
   double drop_ = 0.0, along_ = 0.0;  // mm, down and in plan, since the last test
 };
 
-// What the last digit of the program's coordinates is worth, mm: the largest of the usual steps that the
+// The step of the last digit of the program's coordinates, mm: the largest of the usual steps that the
 // ends of all lines are multiples of. Places along an arc are none.
 double LastDigit(const ProgramMotion& motion) {
   constexpr double kInch = 25.4, kSmallest = 1e-4, kSame = 1e-7;  // mm

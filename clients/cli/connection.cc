@@ -59,7 +59,7 @@ std::string Worded(const grpc::Status& status) {
   return lines;
 }
 
-// How gRPC begins its message when it has not come as far as a connection.
+// Whether gRPC's message says that there never was a connection.
 bool HasNoConnection(const std::string& message) {
   for (const char* begin :
        {"failed to connect", "DNS resolution failed", "Failed to pick", "connections to all"}) {
@@ -171,7 +171,7 @@ absl::StatusOr<Connection> Connect(const CommonOptions& options, KeepModels keep
   grpc::ChannelArguments arguments;
   arguments.SetMaxReceiveMessageSize(static_cast<int>(kMaxMessageBytes));
   arguments.SetMaxSendMessageSize(static_cast<int>(kMaxMessageBytes));
-  // How soon a call that is made again may look for a server that was gone.
+  // A call that is made again looks soon for a server that was gone.
   arguments.SetInt(GRPC_ARG_INITIAL_RECONNECT_BACKOFF_MS, 200);
   arguments.SetInt(GRPC_ARG_MAX_RECONNECT_BACKOFF_MS, 2000);
   connection.channel = grpc::CreateCustomChannel(options.server, *credentials, arguments);

@@ -58,7 +58,7 @@ absl::Status FromGrpc(const grpc::Status& status, const CommonOptions& options, 
 // The reason in the details of an error; empty without details.
 std::string ReasonOf(const grpc::Status& status);
 
-// How a call can end without an answer of its own.
+// A call that ends without an answer of its own, by its cause.
 enum class Loss {
   kNone,         // it has an answer, or an error that another try would have, too
   kUnreachable,  // no server answers: the call has not begun

@@ -24,7 +24,7 @@ struct ConvertOptions {
   std::optional<double> chord;
 };
 
-// What the endings of files for other systems ask for.
+// The formats of files for other systems, by their endings.
 const std::map<std::string, std::string> kFileFormats = {
     {".igs", "iges"}, {".iges", "iges"}, {".stp", "step"}, {".step", "step"},
     {".p21", "step"}, {".stl", "stl"},   {".obj", "obj"}};

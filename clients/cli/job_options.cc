@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "clients/cli/input_file.h"
+#include "clients/cli/length_units.h"
 #include "clients/cli/stock_option.h"
 #include "clients/cli/text.h"
 #include "clients/cli/tool_file.h"
@@ -423,9 +424,7 @@ absl::StatusOr<v1::ModelSource> ReadModelFile(const std::string& path, const Rea
     file.set_format(ending.substr(1));
   }
   file.set_content(*std::move(bytes));
-  if (options.length_unit == "mm") file.set_length_unit(v1::LENGTH_UNIT_MILLIMETER);
-  if (options.length_unit == "inch") file.set_length_unit(v1::LENGTH_UNIT_INCH);
-  if (options.length_unit == "m") file.set_length_unit(v1::LENGTH_UNIT_METER);
+  if (!options.length_unit.empty()) file.set_length_unit(LengthUnits().at(options.length_unit));
   for (const std::string& id : options.skip_faces)
     file.mutable_import_options()->add_skip_faces(WireText(id, 200));
   if (options.border_tolerance) {

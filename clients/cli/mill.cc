@@ -310,7 +310,7 @@ void PrintSummary(const MillOptions& options, const v1::Report& report) {
   }
 }
 
-// What an earlier try has left.
+// Forgets the answer of an earlier try.
 void Forget(Received& received) {
   received.program.Set("");
   received.plan.Set("");

@@ -241,7 +241,7 @@ void Take(v1::VerifyProgramResponse& response, VerifyAnswer& received) {
   received.complete = true;
 }
 
-// What an earlier try has left.
+// Forgets the answer of an earlier try.
 void Forget(VerifyAnswer& received) {
   received.map_csv.Set("");
   received.map_png.Set("");

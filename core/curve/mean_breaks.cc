@@ -14,7 +14,7 @@ BezierChain Over(const BezierChain& chain, const std::vector<double>& breaks) {
   std::vector<double> spans;
   for (int k = 0; k <= chain.spans(); ++k) points.push_back(chain.points[At(k * chain.degree)]);
   for (std::size_t k = 1; k < breaks.size(); ++k) spans.push_back(breaks[k] - breaks[k - 1]);
-  // The same derivative per share of the span at the end.
+  // The derivatives at the ends are those of the chain, per share of the end span.
   SplineEnds ends;
   ends.start = Evaluate(chain, 0.0).d * ((chain.breaks[1] - chain.breaks[0]) / spans.front());
   ends.end =

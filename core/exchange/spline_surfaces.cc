@@ -88,11 +88,13 @@ class Exporter {
       }
     }
     if (fitted_ > 0) {
-      result_.findings.push_back(
-          MakeInfo("EXPORT_FITTED",
-                   fmt::format("{} of {} patches are of kinds that no other system knows; {} surfaces "
-                               "of degree {} stand for them, within {:g} mm",
-                               fitted_, model_.patches.size(), fits_, kFitDegree, kSplineFit)));
+      const bool within = worst_ <= 0.5 * kSplineFit;
+      result_.findings.push_back(MakeDiagnostic(
+          within ? Severity::kInfo : Severity::kWarning, "EXPORT_FITTED",
+          fmt::format(
+              "{} of {} patches are of kinds that no other system knows; {} surfaces of degree {} stand for "
+              "them, within {:.3g} mm",
+              fitted_, model_.patches.size(), fits_, kFitDegree, within ? kSplineFit : 2.0 * worst_)));
     }
     return std::move(result_);
   }
@@ -178,6 +180,7 @@ class Exporter {
     }
     // Half of the bound: samples may miss the largest distance.
     if (most <= 0.5 * kSplineFit || depth == kFitDepth) {
+      worst_ = std::max(worst_, most);
       result_.surfaces.push_back({name, patch});
       return absl::OkStatus();
     }
@@ -196,6 +199,7 @@ class Exporter {
   const RunContext& run_;
   SplineSurfaces result_;
   std::size_t fitted_ = 0, fits_ = 0;
+  double worst_ = 0.0;  // mm, largest distance of a fit from its patch
 };
 
 }  // namespace

@@ -23,7 +23,8 @@ inline constexpr double kSplineFit = 1e-5;  // mm
 
 struct SplineSurfaces {
   std::vector<SplineSurface> surfaces;  // in the order of the patches
-  Diagnostics findings;                 // EXPORT_FITTED, an info: which kinds of patches were fitted
+  // EXPORT_FITTED: how many patches were fitted, and how well; a warning where kSplineFit is not kept.
+  Diagnostics findings;
 };
 
 // Bezier, B-spline, Hosaka and triangular Bezier patches exactly (a triangle as three quads around its
