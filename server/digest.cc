@@ -133,6 +133,7 @@ void AddWallSides(const std::vector<WallSide>& sides, Canonical& out) {
 // The stock beyond its top and its allowance.
 void AddStock(const Setup& setup, Canonical& out) {
   if (setup.allowance_stated) out.Add("allowance stated");
+  if (!setup.allowance.IsOne()) out.Add("floor allowance").Add(setup.allowance.floors);
   if (!setup.zero_stated) out.Add("zero assumed");
   AddWallSides(setup.wall_sides, out);
   if (const auto* block = std::get_if<BlockStock>(&setup.stock_body)) out.Add("block").Add(block->margin);
@@ -259,7 +260,7 @@ std::string JobDigest(const Job& job, std::string_view model_digest, std::string
   out.Add(static_cast<std::int64_t>(setup.zero));
   AddPoint(setup.zero_point, out);
   AddOptional(setup.stock_top_z, out);
-  out.Add(setup.allowance);
+  out.Add(setup.allowance.walls);
   const Operation& op = job.operation;
   const Tool& tool = op.tool;
   out.Add(std::int64_t{tool.number}).Add(tool.name).Add(BallRadius(tool));

@@ -170,6 +170,14 @@ double StockSolid::Distance(const Vec3& c) const {
   return std::max(beside, above);
 }
 
+double StockSolid::DepthAt(const Vec3& c, const StockDepth& depth) const {
+  constexpr double kRise = 1e-3;  // mm
+  if (depth.IsOne()) return depth.walls;
+  // How fast the distance grows with the height is the height of the normal at the nearest side.
+  const double up = (Distance(c + Vec3(0, 0, kRise)) - Distance(c)) / kRise;
+  return depth.Along(std::clamp(up, 0.0, 1.0));
+}
+
 double StockSolid::CylinderRoom(const Vec2& q, double z, double radius) const {
   if (columns_ != nullptr) return columns_->CylinderRoom(q, z, radius);
   return std::max(PlanDistance(q) - radius, z - top_z_);

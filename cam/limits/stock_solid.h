@@ -9,6 +9,7 @@
 
 #include "cam/limits/covered_cells.h"
 #include "cam/limits/stock_columns.h"
+#include "cam/limits/stock_depth.h"
 #include "core/base/run_context.h"
 #include "core/math/outline.h"
 #include "core/surface/surface.h"
@@ -43,6 +44,9 @@ class StockSolid {
   double PlanDistance(const Vec2& q) const;
   // Distance in space: positive outside, negative inside. The lower end does not count as a side.
   double Distance(const Vec3& c) const;
+  // The depth at the side of the solid that is nearest to c: that of floors at its top, that of walls beside
+  // it. In between, as between walls and floors.
+  double DepthAt(const Vec3& c, const StockDepth& depth) const;
   // True if a place between a and b comes nearer to the solid than `distance`, to the accuracy or 0.01 mm,
   // whichever is more. With both at height -infinity the distance is that in plan.
   bool SegmentComesNearer(const Vec3& a, const Vec3& b, double distance) const;

@@ -111,7 +111,8 @@ std::optional<Lead> FindBack(const MoveCheck& check, const PassEnd& start) {
 std::optional<Lead> FindRamp(const MoveCheck& check, const PassEnd& start) {
   const double above = ClearOver(check, start.center()).z() - start.center().z();
   // Over a plane the ball is then as high as the stock allowance, which is all that it has to cut.
-  const double height = std::max(kLeastRamp, above * check.params().allowance / check.stock_depth());
+  const double floors = check.params().allowance.floors;
+  const double height = std::max(kLeastRamp, above * floors / (floors + check.params().approach_gap));
   std::vector<Vec3> places = RampAlong(start, check.params().lead, height);
   if (places.empty()) return std::nullopt;
   for (std::size_t k = 1; k < places.size(); ++k) {

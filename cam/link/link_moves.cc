@@ -163,7 +163,7 @@ Link LinkMaker::Over(const PassEnd& end, const PassEnd& start) const {
 
 std::optional<Move> LinkMaker::BesideStock(const Vec3& a, const Vec3& b) const {
   const double gap = kGapTolerance * params_.approach_gap;
-  if (!check_.stock_locator().GougeWithin(a, b, gap, 0.1 * gap) || !check_.Allowed(a, b)) return std::nullopt;
+  if (!check_.ClearOfAllowance(a, b, gap) || !check_.Allowed(a, b)) return std::nullopt;
   if (!check_.ClearOfStockSolid(a, b, params_.approach_gap - gap)) return std::nullopt;
   return check_.AirMove(b);
 }
@@ -193,7 +193,7 @@ std::optional<std::vector<Move>> LinkMaker::AboveStock(const Vec3& a, const Vec3
       return std::nullopt;
     }
     for (const CutterPoint& point : points) {
-      if (!go(point.center)) return std::nullopt;
+      if (!go(point.center + Lift(Vec2::Zero(), params_.allowance.Rise()))) return std::nullopt;
     }
   }
   if (!go(b) || TimeOf(a, moves) > longest) return std::nullopt;

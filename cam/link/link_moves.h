@@ -21,7 +21,7 @@ struct Link {
 };
 
 // Makes links and proves them. `locator` is for the ball plus the stock to leave, `stock_locator` for the
-// ball plus stock allowance and approach gap. Keeps references to all arguments.
+// ball plus stock allowance of walls and approach gap. Keeps references to all arguments.
 class LinkMaker {
  public:
   // Links that were made after a cancel must not be used.

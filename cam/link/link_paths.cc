@@ -59,13 +59,15 @@ absl::StatusOr<LinkResult> LinkPaths(const Locator& locator, const RegionMap& re
     }
   }
   std::optional<SurfaceHeights> heights;
-  const double clear = params.radius + params.allowance + params.approach_gap;
+  const double clear = params.radius + params.allowance.walls + params.approach_gap;
   if (params.low_rapids) heights.emplace(locator.surface(), clear);
-  const double leads = 2.0 * (params.allowance + params.approach_gap);
+  const double leads = 2.0 * (params.allowance.Most() + params.approach_gap);
   const auto travel = [&](const Vec3& a, const Vec3& b) {
     const double length = (b - a).norm();
     double top = params.clearance_z + params.radius;
-    if (heights) top = std::min(top, std::max({a.z(), b.z(), heights->HighestOver(Xy(a), Xy(b)) + clear}));
+    if (heights)
+      top = std::min(top, std::max({a.z(), b.z(),
+                                    heights->HighestOver(Xy(a), Xy(b)) + clear + params.allowance.Rise()}));
     const double over = std::max(0.0, 2.0 * top - a.z() - b.z());
     const double time = leads / params.feed + (over + Xy(b - a).norm()) / kAssumedRapid;
     return 60.0 * (length <= MaxLinkLength(params) ? std::min(time, length / params.feed) : time);

@@ -7,6 +7,7 @@
 
 #include <absl/status/statusor.h>
 
+#include "cam/limits/stock_depth.h"
 #include "cam/limits/stock_solid.h"
 #include "cam/limits/upper_cylinders.h"
 #include "cam/link/lead_shapes.h"
@@ -27,7 +28,7 @@ struct LinkParams {
   double radius = 3.0;       // mm, radius of the ball itself (the locator's includes the stock to leave)
   double clearance_z = 0.0;  // mm, TIP height of rapids, above model and stock
   double stock_top_z = 0.0;  // mm
-  double allowance = 0.5;    // mm, stock allowance along the normal
+  StockDepth allowance;      // stock allowance along the normal
   // If true, the stock is known: rapids between passes run as low as they are proven clear of it, and links
   // at feed close to it may take their place. Else rapids run at the clearance plane.
   bool low_rapids = false;
@@ -52,7 +53,7 @@ struct LinkParams {
   // The stock beside and over the part; null: none but the allowance over the surface. Rapids and links above
   // it are clear of it by the approach gap. Leads and stay-down links cut into it no deeper than depth_limit.
   const StockSolid* stock = nullptr;
-  double depth_limit = 0.5;  // mm
+  StockDepth depth_limit;
 };
 
 // The longest stay-down link that is made instead of a retract, mm.

@@ -17,6 +17,7 @@ constexpr double kProven = 1.2;
 // In R: places of the surface that are farther than the nearest one by this still count as touched.
 constexpr double kCornerOffset = 0.04;
 constexpr double kFloorSlack = 1e-7;  // mm; rounding
+constexpr double kDepthStep = 0.02;   // in R: how far apart the depths of a cut are compared
 constexpr double kFineRapid = 0.1;    // mm; accuracy of the height of a low rapid
 
 }  // namespace
@@ -83,8 +84,8 @@ bool MoveCheck::Allowed(const Vec3& a, const Vec3& b) const {
   const double floor = params_.pass.floor_z + locator_.radius();  // of centres
   if (std::min(a.z(), b.z()) < floor - kFloorSlack) return false;
   if (params_.stock != nullptr) {
-    const double allowed = params_.radius - params_.depth_limit - params_.stock->accuracy();
-    if (params_.stock->SegmentComesNearer(a, b, allowed)) return false;
+    const double allowed = params_.radius - params_.depth_limit.Least() - params_.stock->accuracy();
+    if (params_.stock->SegmentComesNearer(a, b, allowed) && CutsTooDeep(a, b)) return false;
   }
   if (params_.operation_limits == nullptr) return true;
   const OperationLimits& operation_limits = *params_.operation_limits;
@@ -95,6 +96,18 @@ bool MoveCheck::Allowed(const Vec3& a, const Vec3& b) const {
     if (!LeavesUnwanted(a + (static_cast<double>(k) / parts) * (b - a))) return false;
   }
   return true;
+}
+
+bool MoveCheck::CutsTooDeep(const Vec3& a, const Vec3& b) const {
+  if (params_.depth_limit.IsOne()) return true;
+  const StockSolid& stock = *params_.stock;
+  const int parts = 1 + static_cast<int>((b - a).norm() / (kDepthStep * params_.radius));
+  for (int k = 0; k <= parts; ++k) {
+    const Vec3 c = a + (static_cast<double>(k) / parts) * (b - a);
+    const double limit = stock.DepthAt(c, params_.depth_limit) + stock.accuracy();
+    if (params_.radius - stock.Distance(c) > limit) return true;
+  }
+  return false;
 }
 
 bool MoveCheck::LeavesUnwanted(const Vec3& c) const {
@@ -108,9 +121,14 @@ bool MoveCheck::LeavesUnwanted(const Vec3& c) const {
                      [&](const SurfacePoint& place) { return operation_limits.WantsNear(place, overrun_); });
 }
 
+bool MoveCheck::ClearOfAllowance(const Vec3& a, const Vec3& b, double slack) const {
+  const Vec3 lower(0, 0, params_.allowance.Rise());
+  return stock_locator_.GougeWithin(a - lower, b - lower, slack, 0.1 * slack);
+}
+
 double MoveCheck::ClearOfStock(const Vec3& place) const {
   const auto top = stock_locator_.Height(Xy(place));
-  double clear = top ? std::max(top->z, place.z()) : place.z();
+  double clear = top ? std::max(top->z + params_.allowance.Rise(), place.z()) : place.z();
   clear = std::max(clear, AboveStockSolid(Xy(place), Xy(place)));
   return std::min(clear, clearance_center_z());
 }
@@ -118,8 +136,8 @@ double MoveCheck::ClearOfStock(const Vec3& place) const {
 double MoveCheck::ClearOfStockBelow(const UpperCylinder& cylinder, const Vec2& a, const Vec2& b) const {
   // Over everything within the cylinder's radius the ball is at least as high as that.
   const double wider = cylinder.radius - params_.radius;
-  double lower_end =
-      std::min(stock_locator_.MaxHeight(a, b, wider, kFineRapid), params_.stock_top_z + params_.approach_gap);
+  double lower_end = std::min(stock_locator_.MaxHeight(a, b, wider, kFineRapid) + params_.allowance.Rise(),
+                              params_.stock_top_z + params_.approach_gap);
   const double room = cylinder.radius + params_.approach_gap;
   if (params_.stock != nullptr) {
     const double top = params_.stock->TopNear(a, b, room + params_.stock->accuracy());
@@ -133,7 +151,7 @@ double MoveCheck::LowRapidHeight(const Vec3& a, const Vec3& b) const {
   // makes up for a shank that does.
   const double wider = std::max(0.0, params_.tool_radius - params_.radius);
   const double above_all = params_.stock_top_z + params_.approach_gap + params_.radius;
-  const double highest = stock_locator_.MaxHeight(Xy(a), Xy(b), wider, kFineRapid);
+  const double highest = stock_locator_.MaxHeight(Xy(a), Xy(b), wider, kFineRapid) + params_.allowance.Rise();
   double clear = std::min(highest + params_.shank_lower, above_all);
   clear = std::max(clear, AboveStockSolid(Xy(a), Xy(b)));
   for (const UpperCylinder& cylinder : params_.holder)

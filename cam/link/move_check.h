@@ -7,7 +7,7 @@
 namespace patchmill {
 
 // Keeps references to all arguments. `locator` is for the ball plus the stock to leave, `stock_locator` for
-// the ball plus stock allowance and approach gap. Thread-safe.
+// the ball plus stock allowance of walls and approach gap; what floors have more is added here. Thread-safe.
 class MoveCheck {
  public:
   MoveCheck(const Locator& locator, const Locator& stock_locator, const LinkParams& params);
@@ -16,7 +16,9 @@ class MoveCheck {
   const Locator& stock_locator() const { return stock_locator_; }
   const LinkParams& params() const { return params_; }
   double clearance_center_z() const { return params_.clearance_z + params_.radius; }
-  double stock_depth() const { return params_.allowance + params_.approach_gap; }  // mm, along the normal
+  double stock_depth() const {
+    return params_.allowance.Most() + params_.approach_gap;
+  }  // mm, along the normal
 
   // A feed move of kind `kind` to `to`. It runs at plunge feed if it descends steeper than plunge_angle.
   Move Feed(MoveKind kind, const Vec3& from, const Vec3& to) const;
@@ -28,6 +30,8 @@ class MoveCheck {
   // params().operation_limits allow it: the centre may be there, and the ball cuts nothing that is not to be
   // finished.
   bool Allowed(const Vec3& a, const Vec3& b) const;
+  // True if a ball that moves from a to b is clear of the stock on the surface by the gap, less `slack` (mm).
+  bool ClearOfAllowance(const Vec3& a, const Vec3& b, double slack) const;
   // Lowest centre height over `place` at which the ball is clear of the stock, mm. It is no lower than
   // `place` and no higher than the clearance plane.
   double ClearOfStock(const Vec3& place) const;
@@ -42,6 +46,9 @@ class MoveCheck {
   // The lowest centre (mm) from which on this cylinder of the holder is clear of the stock over the
   // rectangle.
   double ClearOfStockBelow(const UpperCylinder& cylinder, const Vec2& a, const Vec2& b) const;
+  // True if a move that comes nearer to params().stock than the least depth allows cuts too deep, by the side
+  // of the stock that it cuts.
+  bool CutsTooDeep(const Vec3& a, const Vec3& b) const;
   double StockRoom() const;  // mm, in plan: from there on the tool is clear of params().stock
   // Centre height (mm) from which on the tool is clear of params().stock over a rectangle in plan.
   double AboveStockSolid(const Vec2& a, const Vec2& b) const;

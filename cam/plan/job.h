@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "cam/limits/containment.h"
+#include "cam/limits/stock_depth.h"
 #include "cam/link/link_paths.h"
 #include "cam/path/parallel/line_frame.h"
 #include "cam/plan/wall_sides.h"
@@ -61,7 +62,7 @@ struct Setup {
   // PROGRAM frame, default model top + allowance, or the top of a stock with a model of its own if that is
   // higher.
   std::optional<double> stock_top_z;
-  double allowance = 0.5;
+  StockDepth allowance;
   // True if the client has stated the allowance. A body of the stock has then been cut down to it over the
   // area that the surface covers as seen from above; else the body is whole.
   bool allowance_stated = false;

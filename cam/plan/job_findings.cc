@@ -69,7 +69,12 @@ bool Encloses(const Box3& stock, const Box3& part) {
 Diagnostics Assumptions(const Job& job, const Resolved& r) {
   Diagnostics list;
   const double zero_z = r.program_zero.z();
-  std::string stock = fmt::format("at most {:.3g} mm of material on the surface", job.setup.allowance);
+  const StockDepth& allowance = job.setup.allowance;
+  std::string stock =
+      allowance.IsOne()
+          ? fmt::format("at most {:.3g} mm of material on the surface", allowance.walls)
+          : fmt::format("at most {:.3g} mm of material on walls and {:.3g} mm on floors of the surface",
+                        allowance.walls, allowance.floors);
   if (r.stock == nullptr) {
     stock += ", none beside it";
   } else if (job.setup.allowance_stated) {
@@ -95,7 +100,7 @@ Diagnostics Assumptions(const Job& job, const Resolved& r) {
     list.push_back(MakeWarning("ZERO_ASSUMED", "no zero is given: X0 Y0 Z0 is the model's own origin"));
   list.push_back(StockIsStated(job.setup) ? MakeWarning("STOCK_STATED", stock)
                                           : MakeWarning("STOCK_ASSUMED", "assumed: " + stock));
-  if (r.stock != nullptr && job.operation.accept_depth > job.setup.allowance) {
+  if (r.stock != nullptr && job.operation.accept_depth > allowance.Least()) {
     list.push_back(MakeWarning(
         "DEPTH_ACCEPTED",
         fmt::format("cuts up to {:.3g} mm deep into the stock are accepted", job.operation.accept_depth)));
@@ -200,6 +205,10 @@ Diagnostic NothingToCut(const JobReport& report, const Resolved& resolved, bool 
 Diagnostic NeedsRoughing(const DeepCuts& deep, const Job& job, const Resolved& resolved) {
   const double step = CenterStep(resolved.plan_radius, job.operation.scallop, 0.0);
   const Vec3 tip = TipAt(deep.center, resolved) - resolved.program_zero;
+  const StockDepth& most = resolved.depth_limit;
+  const std::string limit =
+      most.IsOne() ? fmt::format("{:.3g} mm", most.walls)
+                   : fmt::format("{:.3g} mm from the side or {:.3g} mm from above", most.walls, most.floors);
   const std::string stated = job.setup.allowance_stated
                                  ? ""
                                  : ", say --allowance if the stock over the part has been roughed to it,";
@@ -207,8 +216,8 @@ Diagnostic NeedsRoughing(const DeepCuts& deep, const Job& job, const Resolved& r
       "NEEDS_ROUGHING",
       fmt::format(
           "the ball would cut {:.3g} mm deep into the stock at X{:.4f} Y{:.4f} Z{:.4f}, and more than "
-          "{:.3g} mm deep over about {:.3g} mm2: rough it first{} or raise --accept-depth",
-          deep.deepest, tip.x(), tip.y(), tip.z(), resolved.depth_limit, deep.length * step, stated),
+          "{} deep over about {:.3g} mm2: rough it first{} or raise --accept-depth",
+          deep.deepest, tip.x(), tip.y(), tip.z(), limit, deep.length * step, stated),
       {});
   d.where.point = TipAt(deep.center, resolved);
   return d;

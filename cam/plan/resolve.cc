@@ -203,7 +203,7 @@ absl::StatusOr<Resolved> Resolve(const Surface& surface, const Job& job, const R
   if (!job.dialect.follows_exactly && job.dialect.path_tolerance.empty())
     r.budget.controller = job.control_deviation.value_or(0.0);
   const double top = r.box.max.z();
-  r.stock_top_z = top + job.setup.allowance;
+  r.stock_top_z = top + job.setup.allowance.floors;
   if (const auto* model = std::get_if<ModelStock>(&job.setup.stock_body)) {
     if (model->surface == nullptr) return FieldError("setup.stock.model", "is missing");
     r.stock_box = TightBox(*model->surface);
@@ -216,7 +216,8 @@ absl::StatusOr<Resolved> Resolve(const Surface& surface, const Job& job, const R
                                   r.stock_top_z - zero_z, top - zero_z));
   }
   PM_ASSIGN_OR_RETURN(r.stock, ResolveStock(surface, job.setup, r, run));
-  r.depth_limit = std::max(job.setup.allowance, op.accept_depth);
+  r.depth_limit = {std::max(job.setup.allowance.walls, op.accept_depth),
+                   std::max(job.setup.allowance.floors, op.accept_depth)};
   r.floor_z = op.floor_z ? *op.floor_z + zero_z : r.box.min.z();
   r.plan_floor_z = FloorOnGrid(r.floor_z, zero_z, TickOf(job.dialect, job.unit));
   PM_ASSIGN_OR_RETURN(r.containment, ResolveContainment(surface, job, r, run));

@@ -40,7 +40,7 @@ struct Resolved {
   double split_angle = 0.0;
   Budget budget;
   std::shared_ptr<const StockSolid> stock;  // null: none but the allowance over the surface
-  double depth_limit = 0.0;                 // mm; cuts into the stock may be so deep
+  StockDepth depth_limit = 0.0;             // cuts into the stock may be so deep
   Containment containment;
 };
 

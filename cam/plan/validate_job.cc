@@ -153,12 +153,12 @@ absl::Status ValidateJob(const Job& job) {
         "feeds.keep_on_passes",
         "= true; needs the stock to be stated (setup.stock.allowance_mm, or a body of the stock)");
   }
-  if (op.keep_feed && op.accept_depth > job.setup.allowance) {
+  if (op.keep_feed && op.accept_depth > job.setup.allowance.Least()) {
     return FieldError(
         "feeds.keep_on_passes",
         fmt::format("= true; must be false where accept_depth_mm = {:.6g} is more than the allowance, "
                     "{:.6g}: descents may then cut deep",
-                    op.accept_depth, job.setup.allowance));
+                    op.accept_depth, job.setup.allowance.Least()));
   }
   if (op.corner_feed) {
     PM_RETURN_IF_ERROR(check("feeds.corner_mm_per_min", *op.corner_feed,
@@ -173,12 +173,12 @@ absl::Status ValidateJob(const Job& job) {
   }
   PM_RETURN_IF_ERROR(check("tool.holder_clearance_mm", tool.holder_clearance,
                            tool.holder_clearance >= 0.0 && tool.holder_clearance <= 100.0, "in [0, 100]"));
-  if (!tool.holder.empty() && tool.holder_clearance < job.setup.allowance) {
+  if (!tool.holder.empty() && tool.holder_clearance < job.setup.allowance.Most()) {
     return FieldError(
         "tool.holder_clearance_mm",
         fmt::format("= {:.6g}; must be at least setup.stock.allowance_mm = {:.6g}: so much may stand "
                     "on the surface",
-                    tool.holder_clearance, job.setup.allowance));
+                    tool.holder_clearance, job.setup.allowance.Most()));
   }
   PM_RETURN_IF_ERROR(check("scallop_mm", op.scallop, op.scallop > 0 && op.scallop < r,
                            fmt::format("in (0, ball radius = {:.6g})", r)));
@@ -201,12 +201,17 @@ absl::Status ValidateJob(const Job& job) {
                              *op.clearance_above > 0 && *op.clearance_above <= kMaxLength,
                              fmt::format("in (0, {}]", kMaxLength)));
   }
-  PM_RETURN_IF_ERROR(check("setup.stock.allowance_mm", job.setup.allowance,
-                           job.setup.allowance >= 0 && job.setup.allowance <= 100, "in [0, 100]"));
-  if (job.setup.allowance < op.leave) {
-    return FieldError(
-        "setup.stock.allowance_mm",
-        fmt::format("= {:.6g}; must be at least stock_to_leave_mm = {:.6g}", job.setup.allowance, op.leave));
+  const StockDepth& allowance = job.setup.allowance;
+  const auto check_allowance = [&](const char* field, double value) {
+    PM_RETURN_IF_ERROR(check(field, value, value >= 0 && value <= 100, "in [0, 100]"));
+    return check(field, value, value >= op.leave,
+                 fmt::format("at least stock_to_leave_mm = {:.6g}", op.leave));
+  };
+  if (allowance.IsOne()) {
+    PM_RETURN_IF_ERROR(check_allowance("setup.stock.allowance_mm", allowance.walls));
+  } else {
+    PM_RETURN_IF_ERROR(check_allowance("setup.stock.wall_allowance_mm", allowance.walls));
+    PM_RETURN_IF_ERROR(check_allowance("setup.stock.floor_allowance_mm", allowance.floors));
   }
   const auto length = [&](const char* field, const std::optional<double>& z) {
     return z ? check(field, *z, std::abs(*z) <= kMaxLength, fmt::format("in [-{0}, {0}]", kMaxLength))

@@ -20,7 +20,7 @@ constexpr int kGrid = 256;                    // squares along the longer side o
 // Largest height of material over each square of the plan; -infinity if there is none.
 class HeightGrid {
  public:
-  HeightGrid(const Surface& surface, double allowance, double top, const RunContext& run) {
+  HeightGrid(const Surface& surface, const StockDepth& allowance, double top, const RunContext& run) {
     low_ = Xy(surface.box.min);
     const Vec2 size = Xy(surface.box.max) - low_;
     step_ = std::max(size.maxCoeff() / kGrid, 1e-9);
@@ -30,8 +30,8 @@ class HeightGrid {
     for (const SurfaceNode& node : surface.nodes) {
       if (run.Cancelled()) return;
       if (node.leaf < 0) continue;
-      const double z = std::min(node.box.max.z() + allowance, top);
-      ForEach(Xy(node.box.min).array() - allowance, Xy(node.box.max).array() + allowance,
+      const double z = std::min(node.box.max.z() + allowance.floors, top);
+      ForEach(Xy(node.box.min).array() - allowance.walls, Xy(node.box.max).array() + allowance.walls,
               [&](double& h) { h = std::max(h, z); });
     }
   }
@@ -215,7 +215,7 @@ absl::StatusOr<double> RequiredStickout(const Surface& surface, const Tool& tool
                                         const VerifyParams& params, const RunContext& run) {
   constexpr std::size_t kMovesBetweenPolls = 1024;
   if (surface.nodes.empty()) return 0.0;
-  const double radius = WidestRadius(tool) + params.allowance;
+  const double radius = WidestRadius(tool) + params.allowance.walls;
   HeightGrid grid(surface, params.allowance, std::max(params.stock_top_z, surface.box.max.z()), run);
   grid.Dilate(radius);
   double stickout = 0.0;

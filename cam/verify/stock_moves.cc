@@ -26,9 +26,9 @@ bool ComesBesideStock(const StockSolid& stock, const Vec3& a, const Vec3& b, dou
 }  // namespace
 
 DeepCuts FindDeepCuts(const StockSolid& stock, const std::vector<PathSegment>& feeds, double radius,
-                      double limit, const RunContext& run) {
+                      const StockDepth& limit, const RunContext& run) {
   DeepCuts cuts;
-  const double allowed = limit + stock.accuracy(), step = kStep * radius;
+  const double allowed = limit.Least() + stock.accuracy(), step = kStep * radius;
   for (std::size_t k = 0; k < feeds.size(); ++k) {
     if (k % kMovesBetweenPolls == 0 && run.Cancelled()) return cuts;
     const PathSegment& feed = feeds[k];
@@ -36,9 +36,11 @@ DeepCuts FindDeepCuts(const StockSolid& stock, const std::vector<PathSegment>& f
     for (double gone = 0.0;;) {
       const Vec3 c = length > 0.0 ? Vec3(feed.a + gone / length * (feed.b - feed.a)) : feed.a;
       const double depth = radius - stock.Distance(c);
-      const bool deep = depth > allowed;
+      const double here = depth > allowed ? stock.DepthAt(c, limit) : limit.Least();
+      const bool deep = depth > here + stock.accuracy();
       if (deep && depth > cuts.deepest) {
         cuts.deepest = depth;
+        cuts.limit = here;
         cuts.center = c;
         cuts.move = feed.move;
       }

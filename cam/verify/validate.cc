@@ -17,8 +17,9 @@ absl::Status ValidateVerifyInput(const Surface& surface, const Tool& tool, const
     return bad("tolerance", params.tolerance, "in (0, ball radius)");
   if (!(params.certainty > 0.0)) return bad("certainty", params.certainty, "> 0");
   if (!(params.leave >= 0.0) || !std::isfinite(params.leave)) return bad("leave", params.leave, ">= 0");
-  if (!(params.allowance >= 0.0) || !std::isfinite(params.allowance))
-    return bad("allowance", params.allowance, ">= 0");
+  for (const double allowance : {params.allowance.walls, params.allowance.floors}) {
+    if (!(allowance >= 0.0) || !std::isfinite(allowance)) return bad("allowance", allowance, ">= 0");
+  }
   const auto sound = [&](const Finish& finish) {
     return !finish.scallop || (*finish.scallop > 0.0 && *finish.scallop < radius);
   };

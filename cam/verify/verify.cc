@@ -420,18 +420,21 @@ class Verifier {
 
   absl::Status JudgeRapids() {
     GougeParams p;
-    p.radius = ball_ + params_.allowance - kRapidSlack;
+    p.radius = ball_ + params_.allowance.walls - kRapidSlack;
     if (std::isfinite(motion_.rapid_tolerance)) p.radius += motion_.rapid_tolerance;
     p.certainty = params_.certainty;
     p.limit = 0.0;
     const double clear_z = params_.stock_top_z + ball_ - kRapidSlack;
-    const SegmentTree tree(CollectMoves(motion_, MotionSet::kRapid, offset_, clear_z), Metric::kSwept,
+    // What floors have more counts as tool below the ball.
+    const double rise = params_.allowance.Rise();
+    const Vec3 lower = offset_ - Vec3(0, 0, rise);
+    const SegmentTree tree(CollectMoves(motion_, MotionSet::kRapid, lower, clear_z - rise), Metric::kSwept,
                            radius_, run_);
     PM_ASSIGN_OR_RETURN(Extremes found, FindGouge({surface_, roots_}, tree, p, run_, "verify: rapids"));
     ReportPlaces("RAPID_IN_STOCK", found.violations, "a rapid enters the stock");
     JudgeStockSolid(clear_z);
     PM_RETURN_IF_ERROR(run_.Check());
-    const SegmentTree boxes(OtherDogLegs(found, offset_, clear_z), Metric::kSweptBox, radius_, run_);
+    const SegmentTree boxes(OtherDogLegs(found, lower, clear_z - rise), Metric::kSweptBox, radius_, run_);
     PM_ASSIGN_OR_RETURN(const Extremes beside,
                         FindGouge({surface_, roots_}, boxes, p, run_, "verify: rapids"));
     ReportPlaces("RAPID_DOG_LEG", beside.violations,
@@ -448,11 +451,16 @@ class Verifier {
       return !std::binary_search(figures.steep_moves.begin(), figures.steep_moves.end(), s.move);
     });
     GougeParams p;
-    p.radius = ball_ + params_.allowance - kRapidSlack;
+    p.radius = ball_ + params_.allowance.walls - kRapidSlack;
     p.chord_error = chord_error_;
     p.certainty = params_.certainty;
     p.limit = 0.0;
-    const SegmentTree tree(moves, Metric::kSwept, radius_, run_);
+    std::vector<PathSegment> lower = moves;
+    for (PathSegment& move : lower) {
+      move.a.z() -= params_.allowance.Rise();
+      move.b.z() -= params_.allowance.Rise();
+    }
+    const SegmentTree tree(std::move(lower), Metric::kSwept, radius_, run_);
     PM_ASSIGN_OR_RETURN(const Extremes found,
                         FindGouge({surface_, roots_}, tree, p, run_, "verify: descents"));
     int in_stock = found.violations.empty() ? -1 : found.worst.move;
@@ -492,13 +500,14 @@ class Verifier {
     const Vec3 tip = deep.center - offset_;
     broken("CUT_TOO_DEEP", deep.move,
            fmt::format("the ball cuts {:.3g} mm deep into the stock at X{:.4f} Y{:.4f} Z{:.4f}; the limit is "
-                       "{:.3g} mm",
-                       deep.deepest, tip.x(), tip.y(), tip.z(), params_.depth_limit));
+                       "{:.3g} mm{}",
+                       deep.deepest, tip.x(), tip.y(), tip.z(), deep.limit,
+                       params_.depth_limit.IsOne() ? "" : " there"));
     for (const UpperCylinder& cylinder : UpperCylindersOf(tool_)) {
       const Vec3 up(0, 0, cylinder.rise);
       broken(cylinder.part == UpperPart::kShank ? "SHANK_IN_STOCK" : "HOLDER_IN_STOCK",
              FirstShankInStock(stock, CollectMoves(motion_, MotionSet::kSwept, offset_ + up), cylinder.radius,
-                               cylinder.part == UpperPart::kShank ? params_.depth_limit : 0.0, run_),
+                               cylinder.part == UpperPart::kShank ? params_.depth_limit.walls : 0.0, run_),
              fmt::format("the {} stands in the stock beside or over the part", Name(cylinder.part)));
     }
   }

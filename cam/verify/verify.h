@@ -18,6 +18,7 @@
 #include <absl/status/statusor.h>
 
 #include "cam/limits/containment.h"
+#include "cam/limits/stock_depth.h"
 #include "cam/limits/stock_solid.h"
 #include "cam/limits/surface_mask.h"
 #include "cam/tool/tool.h"
@@ -54,10 +55,10 @@ struct VerifyParams {
   double floor_z = -kInfinity;       // mm, lowest tip, placed frame
   Vec3 program_zero = Vec3::Zero();  // point of the placed frame that is X0 Y0 Z0
   double stock_top_z = 0.0;          // mm, placed frame; highest material
-  double allowance = 0.5;            // mm, stock allowance along the normal; rapids keep clear of it
+  StockDepth allowance;              // stock allowance along the normal; rapids keep clear of it
   // The stock beside and over the part; null: none but the allowance.
   std::shared_ptr<const StockSolid> stock = nullptr;
-  double depth_limit = 0.5;  // mm; feeds may cut so deep into the stock
+  StockDepth depth_limit;  // feeds may cut so deep into the stock
   // Steep descents may run at any feed: what they cut is no deeper than the allowance, or CUT_TOO_DEEP.
   bool keep_feed = false;
   std::optional<Machine> machine = std::nullopt;

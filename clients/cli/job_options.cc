@@ -204,6 +204,10 @@ void AddStockOptions(CLI::App& app, SetupOptions& options) {
             "top of the stock, mm; default: top of the model + allowance");
   AddNumber(app, "--allowance", options.allowance,
             "stock allowance along the normal, mm; default 0.5, or --leave if that is more");
+  AddNumber(app, "--allowance-walls", options.allowance_walls,
+            "stock allowance of walls, mm; default --allowance. On a slope it lies between both");
+  AddNumber(app, "--allowance-floors", options.allowance_floors,
+            "stock allowance of floors, mm; default --allowance");
   app.add_option("--stock", options.stock,
                  "the stock as it lies on the machine, up to --stock-top: block[,MARGIN] around the model |\n"
                  "cylinder,D[,X,Y] | \"outline: X,Y X,Y ...\" | outline:@FILE | model:FILE, placed as the "
@@ -269,6 +273,8 @@ absl::StatusOr<v1::Setup> MakeSetup(const SetupOptions& options, const std::stri
   }
   if (options.stock_top) setup.mutable_stock()->set_top_z_mm(*options.stock_top);
   if (options.allowance) setup.mutable_stock()->set_allowance_mm(*options.allowance);
+  if (options.allowance_walls) setup.mutable_stock()->set_wall_allowance_mm(*options.allowance_walls);
+  if (options.allowance_floors) setup.mutable_stock()->set_floor_allowance_mm(*options.allowance_floors);
   if (!options.machine.empty()) {
     if (const absl::Status read = ReadMachine(options.machine, *setup.mutable_machine()); !read.ok())
       return read;

@@ -20,7 +20,7 @@ struct SetupOptions {
   std::vector<double> translate;
   std::string zero;  // empty: not stated
   std::optional<double> stock_top;
-  std::optional<double> allowance;
+  std::optional<double> allowance, allowance_walls, allowance_floors;
   std::string stock, machine;
   std::vector<std::string> wall_sides;  // "NAME=X,Y,Z"
 };

@@ -75,6 +75,8 @@ constexpr Entry kOptions[] = {
     {"feeds.corner_mm_per_min", "--corner-feed"},
     {"stock.top_z_mm", "--stock-top"},
     {"stock.allowance_mm", "--allowance"},
+    {"stock.wall_allowance_mm", "--allowance-walls"},
+    {"stock.floor_allowance_mm", "--allowance-floors"},
     {"stock.block.margin_mm", "--stock"},
     {"stock.cylinder.diameter_mm", "--stock"},
     {"stock.cylinder.center_xy_mm", "--stock"},

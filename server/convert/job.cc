@@ -248,13 +248,20 @@ Job FromProto(const v1::Job& proto, const v1::Post& post, std::string_view at, F
     job.default_cutting_data = proto.operations(0).tool().cutting_data_is_default();
     job.default_tool_number = proto.operations(0).tool().number_is_default();
     // The stock to leave is part of the allowance.
-    if (!job.setup.allowance_stated) job.setup.allowance = std::max(job.setup.allowance, job.operation.leave);
+    StockDepth& allowance = job.setup.allowance;
+    if (!job.setup.allowance_stated) allowance = std::max(allowance.Most(), job.operation.leave);
     if (!proto.operations(0).tool().has_holder_clearance_mm())
-      job.operation.tool.holder_clearance = std::max(kDefaultHolderClearance, job.setup.allowance);
-    if (job.setup.allowance < job.operation.leave) {
-      errors.Add(At(at, "setup.stock.allowance_mm"),
-                 fmt::format("= {:.10g}; must be at least stock_to_leave_mm = {:.10g}", job.setup.allowance,
-                             job.operation.leave));
+      job.operation.tool.holder_clearance = std::max(kDefaultHolderClearance, allowance.Most());
+    const auto require = [&](const char* field, double value) {
+      if (value >= job.operation.leave) return;
+      errors.Add(At(at, field), fmt::format("= {:.10g}; must be at least stock_to_leave_mm = {:.10g}", value,
+                                            job.operation.leave));
+    };
+    if (allowance.IsOne()) {
+      require("setup.stock.allowance_mm", allowance.walls);
+    } else {
+      require("setup.stock.wall_allowance_mm", allowance.walls);
+      require("setup.stock.floor_allowance_mm", allowance.floors);
     }
   }
   if (proto.operations_size() > 1) {

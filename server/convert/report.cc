@@ -283,7 +283,12 @@ v1::SetupSheet ToProto(const Resolved& resolved, const Job& job) {
   sheet.set_clearance_z_mm(Number(resolved.clearance_z - zero.z()));
   sheet.set_floor_z_mm(Number(resolved.floor_z - zero.z()));
   sheet.set_stock_top_z_mm(Number(resolved.stock_top_z - zero.z()));
-  sheet.set_stock_allowance_mm(job.setup.allowance);
+  const StockDepth& allowance = job.setup.allowance;
+  sheet.set_stock_allowance_mm(allowance.Most());
+  if (!allowance.IsOne()) {
+    sheet.set_stock_wall_allowance_mm(allowance.walls);
+    sheet.set_stock_floor_allowance_mm(allowance.floors);
+  }
   *sheet.mutable_model_box() = ToProto(resolved.box, zero);
   return sheet;
 }

@@ -38,6 +38,25 @@ CylinderStock ReadCylinder(const v1::CylinderStock& proto, const std::string& at
   return cylinder;
 }
 
+void ReadAllowance(const v1::Stock& proto, std::string_view at, Setup& setup, FieldErrors& errors) {
+  const auto read = [&](const char* field, double value) {
+    Require(errors, At(at, field), value, value >= 0.0 && value <= limits::kMaxAllowanceMm,
+            fmt::format("in [0, {}]", limits::kMaxAllowanceMm));
+    setup.allowance_stated = true;
+    return value;
+  };
+  if (proto.has_allowance_mm()) setup.allowance = read("allowance_mm", proto.allowance_mm());
+  if (proto.has_wall_allowance_mm())
+    setup.allowance.walls = read("wall_allowance_mm", proto.wall_allowance_mm());
+  if (proto.has_floor_allowance_mm())
+    setup.allowance.floors = read("floor_allowance_mm", proto.floor_allowance_mm());
+  if (proto.has_allowance_mm() || proto.has_wall_allowance_mm() == proto.has_floor_allowance_mm()) return;
+  errors.Add(At(at, proto.has_wall_allowance_mm() ? "floor_allowance_mm" : "wall_allowance_mm"),
+             proto.has_wall_allowance_mm()
+                 ? "is missing; required with wall_allowance_mm: state it, or allowance_mm for both"
+                 : "is missing; required with floor_allowance_mm: state it, or allowance_mm for both");
+}
+
 }  // namespace
 
 void ReadStock(const v1::Stock& proto, std::string_view at, Setup& setup, FieldErrors& errors) {
@@ -45,13 +64,7 @@ void ReadStock(const v1::Stock& proto, std::string_view at, Setup& setup, FieldE
     RequireCoordinate(errors, At(at, "top_z_mm"), proto.top_z_mm());
     setup.stock_top_z = proto.top_z_mm();
   }
-  if (proto.has_allowance_mm()) {
-    Require(errors, At(at, "allowance_mm"), proto.allowance_mm(),
-            proto.allowance_mm() >= 0.0 && proto.allowance_mm() <= limits::kMaxAllowanceMm,
-            fmt::format("in [0, {}]", limits::kMaxAllowanceMm));
-    setup.allowance = proto.allowance_mm();
-    setup.allowance_stated = true;
-  }
+  ReadAllowance(proto, at, setup, errors);
   if (proto.has_block()) {
     const double margin = proto.block().margin_mm();
     Require(errors, At(at, "block.margin_mm"), margin, margin >= 0.0 && margin <= limits::kMaxStockMarginMm,
@@ -71,7 +84,11 @@ void ReadStock(const v1::Stock& proto, std::string_view at, Setup& setup, FieldE
 v1::Stock StockToProto(const Setup& setup) {
   v1::Stock proto;
   if (setup.stock_top_z) proto.set_top_z_mm(*setup.stock_top_z);
-  if (setup.allowance_stated) proto.set_allowance_mm(setup.allowance);
+  if (setup.allowance_stated && setup.allowance.IsOne()) proto.set_allowance_mm(setup.allowance.walls);
+  if (setup.allowance_stated && !setup.allowance.IsOne()) {
+    proto.set_wall_allowance_mm(setup.allowance.walls);
+    proto.set_floor_allowance_mm(setup.allowance.floors);
+  }
   if (const auto* block = std::get_if<BlockStock>(&setup.stock_body)) {
     proto.mutable_block()->set_margin_mm(block->margin);
   } else if (const auto* outline = std::get_if<OutlineStock>(&setup.stock_body)) {

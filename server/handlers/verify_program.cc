@@ -111,7 +111,7 @@ Job ReadJob(const v1::VerifyProgramRequest& request, const std::vector<Tool>& to
   op.keep_feed = request.keep_feed_on_passes();
   if (op.keep_feed && !StockIsStated(job.setup))
     errors.Add("keep_feed_on_passes", "= true; needs the stock to be stated (setup.stock)");
-  if (op.keep_feed && op.accept_depth > job.setup.allowance)
+  if (op.keep_feed && op.accept_depth > job.setup.allowance.Least())
     errors.Add("keep_feed_on_passes",
                "= true; must be false where accept_depth_mm is more than the allowance");
   op.selection = FromProto(request.selection(), "selection", errors);
@@ -454,7 +454,7 @@ absl::Status HandleVerifyProgram(const Call& call, const v1::VerifyProgramReques
   VerifyJob what;
   what.tools = ReadTools(request, errors);
   what.job = ReadJob(request, what.tools, errors);
-  CheckHolderClearance(request, what.job.setup.allowance, what.tools, errors);
+  CheckHolderClearance(request, what.job.setup.allowance.Most(), what.tools, errors);
   if (request.has_tessellation_chord_mm())
     what.wanted.chord = ReadChord(request.tessellation_chord_mm(), errors);
   PM_RETURN_IF_ERROR(errors.ToStatus());

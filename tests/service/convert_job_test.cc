@@ -109,6 +109,13 @@ INSTANTIATE_TEST_SUITE_P(
                 r.mutable_job()->mutable_setup()->mutable_stock()->set_allowance_mm(0.5);
               },
               "job.setup.stock.allowance_mm = 0.5; must be at least stock_to_leave_mm = 0.6"},
+        Wrong{"LeaveAboveFloorAllowance",
+              [](Request& r) {
+                OperationOf(r).set_stock_to_leave_mm(0.4);
+                SetupOf(r).mutable_stock()->set_allowance_mm(0.5);
+                SetupOf(r).mutable_stock()->set_floor_allowance_mm(0.3);
+              },
+              "job.setup.stock.floor_allowance_mm = 0.3; must be at least stock_to_leave_mm = 0.4"},
         Wrong{"LeaveNegative", [](Request& r) { OperationOf(r).set_stock_to_leave_mm(-0.1); },
               "job.operations[0].stock_to_leave_mm is not there yet", kNext},
         Wrong{"SteepAngle", [](Request& r) { OperationOf(r).set_steep_angle_deg(90); },
@@ -270,7 +277,16 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"StockTop", [](Request& r) { SetupOf(r).mutable_stock()->set_top_z_mm(kNan); },
               "job.setup.stock.top_z_mm = nan"},
         Wrong{"Allowance", [](Request& r) { SetupOf(r).mutable_stock()->set_allowance_mm(-1); },
-              "job.setup.stock.allowance_mm = -1; must be in [0, 100]"}),
+              "job.setup.stock.allowance_mm = -1; must be in [0, 100]"},
+        Wrong{"WallAllowance",
+              [](Request& r) {
+                SetupOf(r).mutable_stock()->set_allowance_mm(0.5);
+                SetupOf(r).mutable_stock()->set_wall_allowance_mm(kNan);
+              },
+              "job.setup.stock.wall_allowance_mm = nan; must be in [0, 100]"},
+        Wrong{"WallAllowanceAlone",
+              [](Request& r) { SetupOf(r).mutable_stock()->set_wall_allowance_mm(0.2); },
+              "job.setup.stock.floor_allowance_mm is missing; required with wall_allowance_mm"}),
     kName);
 
 constexpr std::string_view kOwnPost =
@@ -450,7 +466,8 @@ Request Unusual() {
   SetupOf(r).mutable_translation()->set_y_mm(-2);
   SetupOf(r).mutable_translation()->set_z_mm(3);
   SetupOf(r).mutable_stock()->set_top_z_mm(40);
-  SetupOf(r).mutable_stock()->set_allowance_mm(0.75);
+  SetupOf(r).mutable_stock()->set_wall_allowance_mm(0.75);
+  SetupOf(r).mutable_stock()->set_floor_allowance_mm(1.0);
   SetupOf(r).mutable_stock()->mutable_block()->set_margin_mm(12);
   SetMachine(r);
   SetupOf(r).add_wall_sides()->set_patch_id("wall");

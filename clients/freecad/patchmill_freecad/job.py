@@ -134,6 +134,8 @@ def _stock(values: Values, found: StockData | None) -> pm.Stock | None:
             fields["outline"] = pm.OutlineStock(outline_xy_mm=_rectangle(found.box))
     if kind == "Allowance" or (kind != "Not stated" and not values["StockIsWhole"]):
         fields["allowance_mm"] = values["Allowance"]
+        if values["FloorAllowance"]:
+            fields["floor_allowance_mm"] = values["FloorAllowance"]
     if top is not None:
         fields["top_z_mm"] = top
     return pm.Stock(**fields) if fields else None

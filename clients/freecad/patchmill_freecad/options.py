@@ -121,6 +121,7 @@ STOCK_OPTIONS = (
            _same("Not stated", "Allowance", "Block", "Cylinder", "Job")),
     Option("StockIsWhole", STOCK, "Bool", False, "Nothing has been cut from the stock yet. Else: it has been roughed to Allowance"),
     Option("Allowance", STOCK, "Length", 0.5, "Material on the part, along the normal"),
+    Option("FloorAllowance", STOCK, "Length", 0.0, "Material on floors where it differs; Allowance is then that of walls. 0: Allowance"),
     Option("BlockMargin", STOCK, "Length", 0.0, "Margin of the block around the part"),
     Option("CylinderDiameter", STOCK, "Length", 100.0, "Diameter of the cylinder around the part"),
     Option("StateStockTop", STOCK, "Bool", False, "Nothing lies above StockTop. Else: above the top of the part and the allowance"),
@@ -201,7 +202,8 @@ def property_of(field: str) -> str:
     by_hand = {
         "tool.ball_end.diameter_mm": "ToolDiameter", "tool.number": "ToolNumber", "tool.spindle_rpm": "SpindleSpeed",
         "tool.feed_mm_per_min": "Feed", "tool.plunge_feed_mm_per_min": "PlungeFeed", "tool.holder": "Holder",
-        "setup.stock.allowance_mm": "Allowance", "setup.stock.top_z_mm": "StockTop", "setup.stock.block.margin_mm": "BlockMargin",
+        "setup.stock.allowance_mm": "Allowance", "setup.stock.wall_allowance_mm": "Allowance",
+        "setup.stock.floor_allowance_mm": "FloorAllowance", "setup.stock.top_z_mm": "StockTop", "setup.stock.block.margin_mm": "BlockMargin",
         "setup.stock.cylinder.diameter_mm": "CylinderDiameter", "setup.program_zero": "ZeroPoint", "setup.obstacles": "Clamps",
         "operation.heights.floor_z_mm": "Floor", "operation.heights.top_z_mm": "Top", "post.post_file": "PostFile",
         "operation.selection.boundary_xy_mm": "Boundary", "operation.selection.boundary_offset_mm": "BoundaryOffset",

@@ -55,6 +55,8 @@ export const settings: readonly Setting[] = [
 
   s("stock", "stock", "text", "Body", { hint: "not stated", help: "The stock as it lies on the machine, up to its top: a block around the part, a round bar, or an outline in plan. It has no lower end.", fields: ["stock.block.margin_mm", "stock.cylinder.diameter_mm", "stock.cylinder.center_xy_mm", "stock.outline.outline_xy_mm", "setup.stock.body"] }),
   s("allowance", "stock", "number", "Allowance", { unit: "mm", hint: "0.5, assumed", help: "Material that the operation before left along the normal. When it is stated, rapids may run low.", fields: ["stock.allowance_mm"] }),
+  s("allowance-walls", "stock", "number", "Allowance of walls", { unit: "mm", hint: "allowance", help: "Where roughing has left more or less on walls. On a slope it lies between both.", fields: ["stock.wall_allowance_mm"], isRare: true }),
+  s("allowance-floors", "stock", "number", "Allowance of floors", { unit: "mm", hint: "allowance", help: "Where roughing has left more or less on floors.", fields: ["stock.floor_allowance_mm"], isRare: true }),
   s("stock-top", "stock", "number", "Top of the stock", { unit: "mm", hint: "part + allowance", help: "Highest material, Z of the program.", fields: ["stock.top_z_mm"] }),
   s("accept-depth", "stock", "number", "Accepted depth", { default: "0", unit: "mm", help: "How deep passes may cut into the stock where that is more than the allowance.", fields: ["accept_depth_mm"], isRare: true }),
   s("obstacle", "stock", "lines", "Clamps", { hint: "vice=12,2: -40,-20 -30,-20 -30,20 -40,20", help: "One in each line: NAME=TOP,MARGIN: X,Y X,Y X,Y. The tool keeps off them on every move.", fields: ["setup.obstacles"], isRare: true }),

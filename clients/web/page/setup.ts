@@ -51,9 +51,12 @@ function makeBody(text: string): Stock["body"] {
 function makeStock(choice: Choice): Stock | undefined {
   const topZMm = numberOf(choice, "stock-top");
   const allowanceMm = numberOf(choice, "allowance");
+  const wallAllowanceMm = numberOf(choice, "allowance-walls");
+  const floorAllowanceMm = numberOf(choice, "allowance-floors");
   const text = choice.get("stock");
-  if (topZMm === undefined && allowanceMm === undefined && text === "") return undefined;
-  const stock = create(StockSchema, { ...(topZMm === undefined ? {} : { topZMm }), ...(allowanceMm === undefined ? {} : { allowanceMm }) });
+  const stated = Object.entries({ topZMm, allowanceMm, wallAllowanceMm, floorAllowanceMm }).filter(([, value]) => value !== undefined);
+  if (stated.length === 0 && text === "") return undefined;
+  const stock = create(StockSchema, Object.fromEntries(stated));
   if (text !== "") stock.body = makeBody(text);
   return stock;
 }

@@ -72,7 +72,7 @@ LinkParams Params() {
 // clearance plane, descents slow.
 void CheckMotion(const Surface& surface, const LinkResult& result, const LinkParams& params) {
   const double tolerance = 0.01;
-  const Locator ball(surface, kRadius - tolerance), stock(surface, kRadius + params.allowance);
+  const Locator ball(surface, kRadius - tolerance), stock(surface, kRadius + params.allowance.walls);
   const auto& moves = result.toolpath.moves;
   ASSERT_GT(moves.size(), 3u);
   EXPECT_EQ(moves.front().kind, MoveKind::kRapid);
@@ -221,7 +221,7 @@ TEST(LinkPaths, ContoursThatALimitCutsOffAreEnteredFromBesideTheWall) {
   LinkParams params = Params();
   params.clearance_z = 100;
   params.stock_top_z = 90;
-  const double depth = params.allowance + params.approach_gap;
+  const double depth = params.allowance.walls + params.approach_gap;
   const Locator locator(surface, kRadius), stock(surface, kRadius + depth);
   const auto height = locator.Height(Vec2::Zero());
   const CutterPoint end{Lift(Vec2::Zero(), height->z), height->contact, std::nullopt};
@@ -297,7 +297,7 @@ TEST(LinkPaths, LeavesAwayFromWhatStandsAbove) {
       LinkPaths(locator, {}, {Line(locator, 0, {-25, 0}, {-8 - kRadius - 1e-6, 0})}, params, RunContext{});
   ASSERT_TRUE(result.ok()) << result.status();
   CheckMotion(surface, *result, params);
-  const double depth = params.allowance + params.approach_gap;
+  const double depth = params.allowance.walls + params.approach_gap;
   EXPECT_LE(WayOutLength(*result), 2.0 * depth);
   EXPECT_EQ(result->stats.retract_count, 1);
 }
@@ -367,7 +367,7 @@ TEST(LinkPaths, StaysCloseAboveTheStockWhereARetractCostsMore) {
                                          Line(locator, 9, {20, 5}, {20, -5})};
   LinkParams params = Params();
   params.low_rapids = true;
-  const Locator stock(surface, kRadius + params.allowance);
+  const Locator stock(surface, kRadius + params.allowance.walls);
   const auto result = LinkPaths(locator, {}, paths, params, RunContext{});
   ASSERT_TRUE(result.ok()) << result.status();
   CheckMotion(surface, *result, params);

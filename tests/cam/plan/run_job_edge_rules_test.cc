@@ -98,9 +98,9 @@ TEST(EdgeRules, RollLeavesNoFin) {
   }
   // Between lines that end with a contact at 45 degrees, seen at 90: the scallop over the cosine, in steps
   // of 0.05.
-  EXPECT_LE(Fin(result, job.setup.allowance), job.operation.scallop / std::cos(Radians(45.0)) + 0.05);
+  EXPECT_LE(Fin(result, job.setup.allowance.walls), job.operation.scallop / std::cos(Radians(45.0)) + 0.05);
   const JobResult stopped = Mill(surface, EdgeJob(EdgeRule::kStop));
-  EXPECT_GT(Fin(stopped, job.setup.allowance), 0.3) << "else this test shows nothing";
+  EXPECT_GT(Fin(stopped, job.setup.allowance.walls), 0.3) << "else this test shows nothing";
   Random random(3);
   CheckProgram(surface, job, result, random, 2000);
 }
@@ -130,7 +130,7 @@ TEST(EdgeRules, RimOfACupIsGoneAround) {
     const Vec2 out(std::cos(turn), std::sin(turn));
     for (int a = 0; a <= 85; a += 5) {
       const Vec3 e = Lift(-std::sin(Radians(a)) * out, std::cos(Radians(a)));
-      for (double t = 0.05; t <= job.setup.allowance + 1e-9; t += 0.05)
+      for (double t = 0.05; t <= job.setup.allowance.walls + 1e-9; t += 0.05)
         EXPECT_LE(Distance(Lift(rim * out, high) + t * e, feeds), kRadius + job.operation.scallop)
             << Degrees(turn) << " " << a << " " << t;
     }

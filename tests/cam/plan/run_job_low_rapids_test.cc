@@ -65,7 +65,7 @@ TEST(LowRapids, ClearTheStockOverTheRectangleOnRandomParts) {
     CheckProgram(surface, job, result, places, 200);
     at_clearance += high.report.motion.time;
     lower += result.report.motion.time;
-    const Locator stock(surface, part.radius + job.setup.allowance + job.operation.approach_gap);
+    const Locator stock(surface, part.radius + job.setup.allowance.walls + job.operation.approach_gap);
     for (const Rapid& rapid : RapidsAcross(result)) {
       ASSERT_LE(Excess(stock, rapid, 12), 1e-6) << rapid.from.transpose() << " to " << rapid.to.transpose();
       ++low;
@@ -85,7 +85,7 @@ TEST(LowRapids, AreAsHighAsTheSurfaceBetween) {
   job.operation.selection.boundary = {RingOfBox(-20, -20, -12, -10), RingOfBox(12, -20, 20, -10)};
   const JobResult result = Mill(surface, job);
   ASSERT_EQ(result.report.outcome, Outcome::kCompleteWhereReachable) << Describe(result);
-  const double clear = kLimitedRadius + job.setup.allowance + job.operation.approach_gap;
+  const double clear = kLimitedRadius + job.setup.allowance.walls + job.operation.approach_gap;
   double highest = 0.0;
   for (const Rapid& rapid : RapidsAcross(result)) {
     if (rapid.from.x() * rapid.to.x() < 0.0) highest = std::max(highest, rapid.from.z());

@@ -93,7 +93,8 @@ TEST(SelectedArea, LinksAreLiftedOverOtherSurface) {
       EXPECT_LE(result.report.motion.retract_count, 4) << Describe(result);
       AlongFeeds(result, [&](const Vec3& c, bool) {
         if (c.x() < 10.0 + 1.3 * step || c.x() > 18.0 - 1.3 * step) return;
-        EXPECT_GE(c.z(), 3.0 + job.setup.allowance + job.operation.approach_gap - 0.02) << c.transpose();
+        EXPECT_GE(c.z(), 3.0 + job.setup.allowance.walls + job.operation.approach_gap - 0.02)
+            << c.transpose();
       });
     }
   }
@@ -127,7 +128,7 @@ TEST(SelectedArea, LinksAreLiftedOverRegionsThatAreOff) {
   AlongFeeds(result, [&](const Vec3& c, bool) {
     const auto near = ClosestToPoint(surface, c, 5.0, 1e-3);
     if (!near || near->at.p.z() < 1.3 * step) return;
-    EXPECT_GE(near->distance, 1.0 + job.setup.allowance) << c.transpose();
+    EXPECT_GE(near->distance, 1.0 + job.setup.allowance.walls) << c.transpose();
   });
 }
 
@@ -146,7 +147,7 @@ TEST(SelectedArea, LinksDoNotCutAboveTheHighestTip) {
       for (const double t : {0.0, 0.25, 0.5, 0.75, 1.0}) {
         const Vec3 c = moves[i - 1].to + t * (moves[i].to - moves[i - 1].to);
         if (c.z() - 2.0 <= top + 0.5 * job.operation.tolerance + 1e-9) continue;
-        EXPECT_FALSE(ClosestToPoint(surface, c, 2.0 + job.setup.allowance, 1e-3)) << c.transpose();
+        EXPECT_FALSE(ClosestToPoint(surface, c, 2.0 + job.setup.allowance.walls, 1e-3)) << c.transpose();
       }
     }
   }

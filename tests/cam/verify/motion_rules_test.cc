@@ -307,8 +307,8 @@ TEST(VerifyMotion, DescentsThroughAirMayBeFast) {
         fmt::format("G21 G90\nG53 G0 Z0 S9 M3\nG0 X0 Y0\nZ6\nG1 Z{:.4f} F900\nG0 Z6\n", z);
     return Find(Judged(surface, tool, text + kEnd, params), "STEEP_DESCENT");
   };
-  EXPECT_EQ(judged(params.allowance + 0.001), nullptr);
-  EXPECT_NE(judged(params.allowance - 0.01), nullptr);
+  EXPECT_EQ(judged(params.allowance.walls + 0.001), nullptr);
+  EXPECT_NE(judged(params.allowance.walls - 0.01), nullptr);
 }
 
 Machine SmallMachine() {

@@ -37,7 +37,7 @@ class ProgramJudge {
         radius_(BallRadius(job.operation.tool)),
         kept_(radius_ + job.operation.leave),
         top_(HighestPoint(surface).p.z()),
-        stock_top_(job.setup.stock_top_z.value_or(top_ + job.setup.allowance)),
+        stock_top_(job.setup.stock_top_z.value_or(top_ + job.setup.allowance.walls)),
         floor_(job.operation.floor_z.value_or(LowestPoint(surface).p.z())),
         rounding_(std::max(1e-4, TickOf(job.dialect, job.unit))),
         stated_feed_(kMillimetersPer[job.unit] * 1e-4) {
@@ -72,7 +72,8 @@ class ProgramJudge {
       for (int i = 0; i <= steps; ++i) {
         const Vec3 x = c.from + (c.to - c.from) * (static_cast<double>(i) / steps);
         if (x.z() - radius_ >= stock_top_ - rounding_) continue;
-        EXPECT_FALSE(AnythingNearUpwardRay(surface_, x, radius_ + job_.setup.allowance - rounding_, kSearch))
+        EXPECT_FALSE(
+            AnythingNearUpwardRay(surface_, x, radius_ + job_.setup.allowance.walls - rounding_, kSearch))
             << "rapid into the stock in line " << m.line;
       }
     }
@@ -85,7 +86,8 @@ class ProgramJudge {
     const int steps = 1 + static_cast<int>((c.to - c.from).norm() / kStep);
     for (int i = 0; i <= steps; ++i) {
       const Vec3 x = c.from + (c.to - c.from) * (static_cast<double>(i) / steps);
-      if (AnythingNearUpwardRay(surface_, x, radius_ + job_.setup.allowance - 20.0 * rounding_, kSearch))
+      if (AnythingNearUpwardRay(surface_, x, radius_ + job_.setup.allowance.walls - 20.0 * rounding_,
+                                kSearch))
         return false;
     }
     return true;
