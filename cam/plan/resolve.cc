@@ -156,6 +156,7 @@ Ring StockOutline(const Setup& setup, const Box3& box, const Vec3& zero) {
 absl::StatusOr<std::shared_ptr<const StockSolid>> ResolveStock(const Surface& surface, const Setup& setup,
                                                                const Resolved& r, const RunContext& run) {
   if (std::holds_alternative<NoStockBody>(setup.stock_body)) return nullptr;
+  if (setup.made_stock != nullptr) return setup.made_stock;
   if (const auto* model = std::get_if<ModelStock>(&setup.stock_body)) {
     PM_ASSIGN_OR_RETURN(StockSolid solid,
                         StockSolid::OfModel(*model->surface, r.stock_top_z,

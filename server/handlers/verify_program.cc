@@ -366,6 +366,7 @@ absl::Status Make(const Call& call, const v1::VerifyProgramRequest& request, con
       PlacedSurface(std::move(upright.model.model), upright.model.digest, job.setup, run, ModelsOf(call)));
   const Surface& surface = *built;
   PM_ASSIGN_OR_RETURN(const Resolved resolved, Resolve(surface, job, run));
+  job.setup.made_stock = resolved.stock;
   if (what.wanted.mesh && what.wanted.chord) PM_RETURN_IF_ERROR(CheckChord(surface, *what.wanted.chord, run));
   const Judging by{surface, what.tools, job, request.has_scallop_mm(), request.leftover_map(), run};
   PM_ASSIGN_OR_RETURN(const VerifyReport verify, JudgeWays(by, motion, program));

@@ -247,6 +247,18 @@ TEST(JobStock, TheVerifierFindsMovesInTheModel) {
   EXPECT_FALSE(Has(findings("G1 Z1.7 F300\nG1 X15 F900\nG0 Z6\n"), "CUT_TOO_DEEP"));
 }
 
+TEST(JobStock, TheModelIsMeasuredOnce) {
+  const Surface surface = PlacedSurface(Plane(10));
+  Job job = LimitedJob();
+  job.setup.stock_body = StockOf(Plane(15, 0.3));
+  const Resolved first = *Resolve(surface, job, RunContext());
+  job.setup.made_stock = first.stock;
+  EXPECT_EQ(Resolve(surface, job, RunContext())->stock, first.stock);
+  const JobResult again = Mill(surface, job);
+  job.setup.made_stock = nullptr;
+  EXPECT_EQ(Mill(surface, job).program, again.program);
+}
+
 TEST(JobStock, AModelThatIsMissingIsTold) {
   Job job = LimitedJob();
   job.setup.stock_body = ModelStock{};
