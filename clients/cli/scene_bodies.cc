@@ -39,11 +39,19 @@ render::Box BoxOf(const std::vector<v1::MeshBlock>& mesh) {
 
 std::optional<Prism> StockOf(const Scene& scene, const render::Box& part) {
   const v1::Stock& stock = scene.setup.stock();
-  // A stock with a model of its own is not drawn.
-  if (stock.body_case() == v1::Stock::BODY_NOT_SET || stock.has_model()) return std::nullopt;
+  const v1::SetupSheet& sheet = scene.report.setup_sheet();
+  if (stock.body_case() == v1::Stock::BODY_NOT_SET) return std::nullopt;
+  if (stock.has_model() && !sheet.has_stock_model_box()) return std::nullopt;
   Prism prism{"stock", {}, part.min[2], stock.has_top_z_mm() ? stock.top_z_mm() : part.max[2]};
-  if (scene.report.has_setup_sheet()) prism.top = scene.report.setup_sheet().stock_top_z_mm();
-  if (stock.has_block()) {
+  if (scene.report.has_setup_sheet()) prism.top = sheet.stock_top_z_mm();
+  if (stock.has_model()) {
+    prism.name = "stock (box of its model)";
+    const v1::Point3 &low = sheet.stock_model_box().min(), &high = sheet.stock_model_box().max();
+    prism.outline = {{low.x_mm(), low.y_mm()},
+                     {high.x_mm(), low.y_mm()},
+                     {high.x_mm(), high.y_mm()},
+                     {low.x_mm(), high.y_mm()}};
+  } else if (stock.has_block()) {
     const double margin = stock.block().margin_mm();
     const double x0 = part.min[0] - margin, x1 = part.max[0] + margin;
     const double y0 = part.min[1] - margin, y1 = part.max[1] + margin;

@@ -22,7 +22,8 @@ struct Prism {
 // Of all triangles. Without any, its min is above its max.
 render::Box BoxOf(const std::vector<v1::MeshBlock>& mesh);
 
-// The stock has no lower end: it is drawn down to the lowest point of the part. Absent if none is stated.
+// The stock has no lower end: it is drawn down to the lowest point of the part. A stock with a model of its
+// own is drawn as the box of that, up to its top. Absent if none is stated.
 std::optional<Prism> StockOf(const Scene& scene, const render::Box& part);
 
 // Clamps are drawn down to `bottom`, mm, or to their own top where that is lower.

@@ -322,7 +322,7 @@ absl::StatusOr<std::string> MakePicture(const Scene& scene, const PictureOptions
     for (const auto& [kind, drawn_too] : kinds)
       legend.lines.push_back({Lit(FromHex(BorderColor(kind)), 0.8), "border: " + BorderName(kind)});
   }
-  if (stock) legend.lines.push_back({FromHex(kStockColor), "stock"});
+  if (stock) legend.lines.push_back({FromHex(kStockColor), stock->name});
   for (const Prism& clamp : clamps) legend.lines.push_back({FromHex(kClampColor), clamp.name});
   if (tip) legend.lines.push_back({FromHex("#d9a441"), "tool"});
   if (tip && !tool.holder.empty()) legend.lines.push_back({FromHex("#6f7a87"), "holder"});

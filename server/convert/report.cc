@@ -290,6 +290,7 @@ v1::SetupSheet ToProto(const Resolved& resolved, const Job& job) {
     sheet.set_stock_floor_allowance_mm(allowance.floors);
   }
   *sheet.mutable_model_box() = ToProto(resolved.box, zero);
+  if (resolved.stock_box) *sheet.mutable_stock_model_box() = ToProto(*resolved.stock_box, zero);
   return sheet;
 }
 

@@ -106,12 +106,14 @@ class Jobs(unittest.TestCase):
 
     def test_options_of_every_group(self):
         ours = self.program(ToolDiameter=8.0, ToolNumber=3, Feed=15.0, Strategy="Zig-zag", ZigzagAngle=30.0, OneWay=True, UpAxis="Z",
-                            ProgramZero="Point", ZeroPoint=(1.0, 2.0, 3.0), StockKind="Allowance", Allowance=0.3, KeepFeed=True,
-                            LinkFeed=10.0, Inch=True, WorkOffset="G55", LineNumbers=5, MaxUnreached=80.0, BorderTolerance=0.001)
+                            ProgramZero="Point", ZeroPoint=(1.0, 2.0, 3.0), StockKind="Allowance", Allowance=0.3, FloorAllowance=0.5,
+                            KeepFeed=True, LinkFeed=10.0, Inch=True, WorkOffset="G55", LineNumbers=5,
+                            MaxUnreached=80.0, BorderTolerance=0.001)
         theirs = command_line(
             DOME, "--scallop", 0.5, "--tolerance", 0.05, "--tool-diameter", 8, "--tool-number", 3, "--feed", 900, "--strategy", "zigzag",
-            "--zigzag-angle", 30, "--one-way", "--zero", "1,2,3", "--allowance", 0.3, "--keep-feed", "--link-feed", 600, "--inch",
-            "--work-offset", "G55", "--line-numbers", 5, "--max-unreached", 80, "--border-tolerance", 0.001)
+            "--zigzag-angle", 30, "--one-way", "--zero", "1,2,3", "--allowance", 0.3, "--allowance-floors", 0.5,
+            "--keep-feed", "--link-feed", 600, "--inch", "--work-offset", "G55", "--line-numbers", 5, "--max-unreached", 80,
+            "--border-tolerance", 0.001)
         self.assertEqual(ours, theirs)
 
     def test_verification_takes_the_same_properties(self):

@@ -52,7 +52,7 @@ class SameBytes(unittest.TestCase):
             region_overrides=[pm.RegionOverride(at=pm.Point3(30, 30, 14.125), strategy=pm.Strategy.ZIGZAG, zigzag_angle_deg=30)])
         setup = pm.Setup(
             program_zero=pm.Point3(0, 0, 10), translation=pm.Point3(0, 0, 5), machine=machine,
-            stock=pm.Stock(allowance_mm=0.3, cylinder=pm.CylinderStock(diameter_mm=100)),
+            stock=pm.Stock(allowance_mm=0.3, floor_allowance_mm=0.4, cylinder=pm.CylinderStock(diameter_mm=100)),
             obstacles=[pm.Obstacle(id="vice", top_z_mm=5, outline_xy_mm=[[-20, -20], [-10, -20], [-10, 120], [-20, 120]])])
         with tempfile.TemporaryDirectory() as folder:
             part = pathlib.Path(folder) / "dome.json"
@@ -62,7 +62,7 @@ class SameBytes(unittest.TestCase):
                 part, "--tool-diameter", 8, "--stickout", 60, "--holder", "20,28 25,40,50", "--scallop", 0.3, "--tolerance", 0.05,
                 "--accept-depth", 30, "--lead-radius", 1, "--link-feed", 700, "--boundary", "5,5 55,5 55,55 5,55", "--boundary-mode",
                 "contact", "--region", "30,30,14.125:zigzag:angle=30", "--zero", "0,0,10", "--translate", "0,0,5", "--machine",
-                ROOT / "docs/machine.json", "--allowance", 0.3, "--stock", "cylinder,100", "--obstacle",
+                ROOT / "docs/machine.json", "--allowance", 0.3, "--allowance-floors", 0.4, "--stock", "cylinder,100", "--obstacle",
                 "vice=5: -20,-20 -10,-20 -10,120 -20,120", "--inch", "--line-numbers", 5)
         self.assertEqual(ours.program_bytes, theirs)
         self.assertIn("G20", ours.program)

@@ -163,6 +163,33 @@ TEST_F(CliPage, HasTheSameBytesEachTime) {
   EXPECT_EQ(Slurp(out_ / "a.html"), Slurp(out_ / "b.html"));
 }
 
+// A stock with a model of its own: pages have the box of that, up to its top. Its surface rises to (3/4)^2
+// of the height of its inner control points.
+TEST_F(CliPage, ShowsTheBoxOfAStockModel) {
+  std::string json;
+  ASSERT_TRUE(google::protobuf::util::MessageToJsonString(testing::Bump(50.0, 64.0), &json).ok());
+  const std::string stock = in_.Write("stock.json", json);
+  const Finished run = Mill({"--stock", "model:" + stock, "--accept-depth", "90", "--report",
+                             out_ / "part.report.json", "--preview", out_ / "part.html"},
+                            model_);
+  ASSERT_EQ(run.status, 0) << run.err;
+  v1::Report report;
+  ASSERT_TRUE(google::protobuf::util::JsonStringToMessage(Slurp(out_ / "part.report.json"), &report).ok());
+  const testing::Json scene = ReadPage(out_ / "part.html").scene;
+  ASSERT_EQ(scene["stock"]["outline"].Items().size(), 4u);
+  for (const int axis : {0, 1}) {
+    double low = 1e9, high = -1e9;
+    for (const testing::Json& corner : scene["stock"]["outline"].Items()) {
+      low = std::min(low, corner[axis].Number());
+      high = std::max(high, corner[axis].Number());
+    }
+    EXPECT_NEAR(low, 0.0, 1e-6);
+    EXPECT_NEAR(high, 50.0, 1e-6);
+  }
+  EXPECT_NEAR(report.setup_sheet().stock_model_box().max().z_mm(), 64.0 * 9.0 / 16.0, 1e-3);
+  EXPECT_EQ(scene["stock"]["top"].Number(), report.setup_sheet().stock_top_z_mm());
+}
+
 // The scene of a page is JSON inside a script: a name must not end it, whatever it is.
 TEST_F(CliPage, NamesAreTextAndNeverMarkup) {
   const std::string evil = in_.Write("x<script>alert(1)<!--.json", Slurp(model_));

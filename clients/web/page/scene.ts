@@ -246,12 +246,17 @@ function pairs(xy: readonly number[]): [number, number][] {
   return Array.from({ length: xy.length >> 1 }, (_, i) => [xy[2 * i]!, xy[2 * i + 1]!]);
 }
 
-// The stock has no lower end; it is drawn down to the lowest point of the part.
+// The stock has no lower end; it is drawn down to the lowest point of the part. A stock with a model of its own is drawn as the box of that.
 function stockItem({ setup, report }: SceneSource, part: Box): unknown {
   const stock = setup?.stock;
-  if (stock?.body.case === undefined || stock.body.case === "model") return null;
+  if (stock?.body.case === undefined) return null;
   const top = report?.setupSheet?.stockTopZMm ?? stock.topZMm ?? part.max[2];
   const item = (outline: [number, number][]): unknown => ({ bottom: part.min[2], top, outline });
+  if (stock.body.case === "model") {
+    const { min, max } = report?.setupSheet?.stockModelBox ?? {};
+    if (min === undefined || max === undefined) return null;
+    return item([[min.xMm, min.yMm], [max.xMm, min.yMm], [max.xMm, max.yMm], [min.xMm, max.yMm]]);
+  }
   if (stock.body.case === "block") {
     const { marginMm: m } = stock.body.value;
     const [x0, x1, y0, y1] = [part.min[0] - m, part.max[0] + m, part.min[1] - m, part.max[1] + m];

@@ -39,6 +39,7 @@ const cases = {
   "placement, outer walls": { up: "-z", scale: "0.5", zero: "top-center", translate: "1.5,-2,3e-1", outside: "1", "max-unreached": "80" },
   "round stock and clamps": { stock: "cylinder,180,60,30", allowance: "0.4", "stock-top": "40", "accept-depth": "30", obstacle: ["vice=10,2: -40,-20 -30,-20 -30,20", "9: 150,0 160,0 160,10 150,10"] },
   "a block, a region with its own passes": { stock: "block", allowance: "0.3", "accept-depth": "30", region: ["30,30,19.125:contour"] },
+  "walls and floors": { "allowance-walls": "0.2", "allowance-floors": "0.6" },
   "selection": { only: ["one"], avoid: ["#1"], "avoid-margin": "0.5", floor: "-3", top: "60" },
   "leads, links, feeds": { "lead-radius": "0.8", "lead-sweep": "60", "lead-feed": "600", "link-feed": "900.5", "corner-feed": "450", "plunge-angle": "12", "keep-feed": "1", "approach-gap": "0.7", "high-rapids": "1", allowance: "0.2" },
   "stock by outline, straight lines": { stock: "outline: -10,-10 130.5,-10 130.5,70 -10,70", "stock-top": "35", "accept-depth": "40", bend: "5", "no-round-lines": "1", "no-border-passes": "1" },

@@ -91,7 +91,7 @@ TEST(JobWallAllowance, TheVerifierJudgesCutsByTheirSide) {
   EXPECT_TRUE(above(0.55));
 }
 
-// Beside the surface the block stands 0.45 mm higher. The ball cuts it from above when it finishes the border.
+// Beside the surface the block stands 0.45 mm higher. The ball cuts it from above as it finishes the border.
 TEST(JobWallAllowance, AFloorPassMayCutTheFloorAllowance) {
   const Surface surface = PlacedSurface(Plane(10));
   Job job = JobWith(0.2, 0.5);
@@ -108,7 +108,8 @@ TEST(JobWallAllowance, AFloorPassMayCutTheFloorAllowance) {
   EXPECT_EQ(Mill(surface, job).report.outcome, Outcome::kComplete);
 }
 
-// Moves from one plane to another, 48 mm away: they are clear of what stands on the floors, and the verifier agrees.
+// Moves from one plane to another, 48 mm away: they are clear of what stands on the floors, and the verifier
+// agrees.
 TEST(JobWallAllowance, MovesOverAGapAreClearOfFloors) {
   const Surface surface =
       PlacedSurface(Join({Transformed(Plane(6), Eigen::Affine3d(Eigen::Translation3d(-30, 0, 0))),

@@ -185,8 +185,15 @@ def _outline(xy: Any) -> list[list[float]]:
     return rows
 
 
-def _stock_outline(setup: Setup, low: NDArray[Any], high: NDArray[Any]) -> list[list[float]] | None:
+def _stock_outline(scene: Scene, setup: Setup, low: NDArray[Any], high: NDArray[Any]) -> list[list[float]] | None:
     stock = setup.stock
+    if stock is not None and stock.model is not None:
+        sheet = scene.report.setup_sheet if scene.report else None
+        box = sheet.stock_model_box if sheet else None
+        if box is None or box.min is None or box.max is None:
+            return None
+        (x0, y0), (x1, y1) = (box.min.x_mm, box.min.y_mm), (box.max.x_mm, box.max.y_mm)
+        return [[x0, y0], [x1, y0], [x1, y1], [x0, y1]]
     if stock is not None and stock.block is not None:
         m = stock.block.margin_mm
         (x0, y0), (x1, y1) = (low[:2] - m).tolist(), (high[:2] + m).tolist()
@@ -203,8 +210,11 @@ def _stock_outline(setup: Setup, low: NDArray[Any], high: NDArray[Any]) -> list[
 
 
 def _stock_item(scene: Scene, low: NDArray[Any], high: NDArray[Any]) -> Json | None:
-    """The stock has no lower end; it is drawn down to the lowest point of the part."""
-    outline = _stock_outline(scene.setup, low, high) if scene.setup else None
+    """The stock has no lower end; it is drawn down to the lowest point of the part.
+
+    A stock with a model of its own is drawn as the box of that.
+    """
+    outline = _stock_outline(scene, scene.setup, low, high) if scene.setup else None
     if outline is None or scene.setup is None or scene.setup.stock is None:
         return None
     sheet = scene.report.setup_sheet if scene.report else None
