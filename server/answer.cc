@@ -55,6 +55,11 @@ void Answer::SetProgress(grpc::ByteBuffer progress) {
   changed_.notify_all();
 }
 
+void Answer::EndProgress() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  progress_ended_ = true;
+}
+
 void Answer::End(absl::Status status) {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
@@ -112,7 +117,9 @@ Answer::Reader::~Reader() {
 Answer::Reader::Event Answer::Reader::Next(bool progress, std::chrono::milliseconds wait) {
   std::unique_lock<std::mutex> lock(answer_.mutex_);
   const auto has_message = [&] { return next_ < answer_.dropped_ + answer_.messages_.size(); };
-  const auto has_progress = [&] { return progress && answer_.progress_number_ > seen_progress_; };
+  const auto has_progress = [&] {
+    return progress && !answer_.progress_ended_ && answer_.progress_number_ > seen_progress_;
+  };
   answer_.changed_.wait_for(
       lock, wait, [&] { return answer_.stopped_ || answer_.end_ || has_message() || has_progress(); });
   if (answer_.stopped_) return *answer_.end_;

@@ -37,6 +37,8 @@ class Answer {
   bool Write(grpc::ByteBuffer message);
   // The newest progress; it replaces the one before.
   void SetProgress(grpc::ByteBuffer progress);
+  // No reader gets a progress from now on, not even one that is set already: the last messages follow.
+  void EndProgress();
   void End(absl::Status status);
 
   // For a reader. Its place in the answer.
@@ -71,6 +73,7 @@ class Answer {
   bool keeps_ = true;
   grpc::ByteBuffer progress_;
   std::uint64_t progress_number_ = 0;
+  bool progress_ended_ = false;
   std::vector<Reader*> readers_;
   std::optional<std::chrono::steady_clock::time_point> alone_since_ = std::chrono::steady_clock::now();
   bool stopped_ = false;

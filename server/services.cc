@@ -238,6 +238,12 @@ struct Owned {
   Request request;
 };
 
+// Whether no progress may follow this message in the order of the stream.
+bool EndsProgress(const v1::GenerateProgramResponse& response) {
+  return response.has_artifact() || response.has_program() || response.has_report();
+}
+bool EndsProgress(const v1::VerifyProgramResponse& response) { return !response.has_progress(); }
+
 // The job of a request. It ends when nobody reads its answer any more. The deadlines of its readers are
 // theirs.
 template <class Request, class Response>
@@ -254,6 +260,7 @@ RunningJobs::Job JobOf(ServerEnv* env, StoreKey key, std::shared_ptr<Owned<Reque
     call.caller = caller;
     call.cancelled = gone;
     const Sink<Response> sink = [&](const Response& response) {
+      if (EndsProgress(response)) answer.EndProgress();
       if (!response.has_progress()) return answer.Write(BytesOf(response));
       answer.SetProgress(BytesOf(response));
       return !gone();

@@ -86,6 +86,23 @@ TEST_F(AnswerTest, ProgressIsTheNewestAndComesWhereNoMessageIs) {
   EXPECT_TRUE(std::holds_alternative<Answer::Reader::Nothing>(event));
 }
 
+// The last message of a stream is the last one, whatever progress was set before it and no reader has seen.
+TEST_F(AnswerTest, EndedProgressIsNotGiven) {
+  Answer answer(1000, ledger_);
+  const auto reader = answer.Read();
+  answer.SetProgress(Bytes("1"));
+  answer.EndProgress();
+  (void)answer.Write(Bytes("m"));
+  answer.SetProgress(Bytes("2"));
+  auto event = reader->Next(true, 10ms);
+  EXPECT_EQ(Text(std::get<Answer::Reader::Message>(event).bytes), "m");
+  event = reader->Next(true, 10ms);
+  EXPECT_TRUE(std::holds_alternative<Answer::Reader::Nothing>(event));
+  answer.End(absl::OkStatus());
+  event = reader->Next(true, 10ms);
+  EXPECT_TRUE(std::get<absl::Status>(event).ok());
+}
+
 // Beyond what is kept, the job waits for its reader, and nothing is held for long.
 TEST_F(AnswerTest, ALargeAnswerIsNoLargerThanItsReaderIsBehind) {
   Answer answer(1000, ledger_);
