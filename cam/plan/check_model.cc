@@ -7,6 +7,7 @@
 #include "cam/plan/plan.h"
 #include "core/base/error_details.h"
 #include "core/base/status.h"
+#include "core/surface/concave_radius.h"
 #include "core/surface/extent.h"
 
 namespace patchmill {
@@ -55,8 +56,7 @@ absl::StatusOr<ModelCheck> CheckModel(const Surface& surface, const std::optiona
   PM_RETURN_IF_ERROR(run.Check());
   const Diagnostics walls = WallsWithoutSide(surface);
   check.findings.insert(check.findings.end(), walls.begin(), walls.end());
-  const ConcaveSpot spot = SmallestConcaveRadius(surface, run);
-  PM_RETURN_IF_ERROR(run.Check());
+  PM_ASSIGN_OR_RETURN(const ConcaveSpot spot, SmallestConcaveRadius(surface, run));
   check.min_concave_radius = spot.radius;
   if (tool && spot.radius < BallRadius(*tool) - reach_tolerance) {
     const Piece& piece = surface.piece(spot.at.piece);

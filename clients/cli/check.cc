@@ -8,6 +8,7 @@
 #include "clients/cli/call.h"
 #include "clients/cli/commands.h"
 #include "clients/cli/job_options.h"
+#include "clients/cli/part_tables.h"
 #include "clients/cli/text.h"
 #include "patchmill/v1/model_service.grpc.pb.h"
 
@@ -25,16 +26,6 @@ struct CheckOptions {
   bool no_crossings = false;
 };
 
-// A line for each axis of the model that could point up.
-void PrintUpDirections(const v1::CheckModelResponse& response) {
-  for (const v1::UpDirection& direction : response.up_directions()) {
-    fmt::print("--up {:<7} {:>10.1f} mm2 look up, {:.1f} of them are hidden; {} level face{}{}\n",
-               Short(direction.up()), direction.facing_area_mm2(), direction.hidden_area_mm2(),
-               direction.level_face_count(), direction.level_face_count() == 1 ? "" : "s",
-               direction.up() == response.best_up() ? "; shows most" : "");
-  }
-}
-
 void Print(const CheckOptions& options, const v1::CheckModelResponse& response) {
   if (response.face_count() > 0) fmt::print("faces        {}\n", response.face_count());
   fmt::print("patches      {}\n", response.patch_count());
@@ -49,14 +40,18 @@ void Print(const CheckOptions& options, const v1::CheckModelResponse& response) 
                  response.convex_edge_length_mm(), response.concave_edge_length_mm());
     }
     const double radius = 0.5 * options.tool_diameter;
+    constexpr double kTighter = 1.0 - 1e-6;  // radii that differ by rounding are alike
     if (!response.has_min_concave_radius_mm()) {
       fmt::print("concave      nowhere\n");
     } else {
       fmt::print("concave      smallest radius {:.4g} mm, {} the ball's {:.4g} mm\n",
                  response.min_concave_radius_mm(),
-                 response.min_concave_radius_mm() < radius ? "TIGHTER than" : "not tighter than", radius);
+                 response.min_concave_radius_mm() < kTighter * radius ? "TIGHTER than" : "not tighter than",
+                 radius);
     }
   }
+  PrintConcaveFaces(response, options.all_findings);
+  PrintHoles(response, options.all_findings);
   PrintUpDirections(response);
   // The largest angles come first.
   std::vector<v1::EdgeContinuity> joints(response.joints().begin(), response.joints().end());
@@ -110,7 +105,7 @@ Command AddCheck(CLI::App& app) {
                  "list every joint, measured at this many equal steps of its edge")
       ->check(CLI::Range(0, 10000));
   app.add_flag("--all-findings", options->all_findings,
-               "list every finding, not just the first few of each code");
+               "list every finding, concave face and hole, not just the first few");
   app.add_flag("--no-crossings", options->no_crossings, "do not look for patches that cross each other");
   AddReadingOptions(app, options->reading);
   AddSetupOptions(app, options->setup);

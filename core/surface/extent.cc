@@ -3,9 +3,7 @@
 #include <algorithm>
 #include <queue>
 
-#include "core/base/parallel.h"
 #include "core/base/polled_run.h"
-#include "core/diffgeo/forms.h"
 
 namespace patchmill {
 namespace {
@@ -83,46 +81,6 @@ SurfacePoint Extreme(const Surface& surface, int axis, double sign, double toler
   return answer;
 }
 
-// The largest normal curvature towards the upward normal. It is -infinity where it does not exist or the
-// normal is horizontal.
-double ConcaveCurvature(const Piece& piece, double u, double v) {
-  const SurfaceJet jet = Evaluate(piece, u, v);
-  const auto normal = UpwardNormal(jet);
-  if (!normal || normal->z() < 1e-6) return -kInfinity;
-  const double k = Principal(Forms(jet, *normal)).k_max;
-  return std::isfinite(k) ? k : -kInfinity;
-}
-
-struct Peak {
-  double k = 0.0;
-  double u = 0.0, v = 0.0;
-};
-
-// Samples the leaf at 3 x 3 places. Then shrinks a search pattern around the best sample within the leaf.
-Peak LeafPeak(const Surface& surface, const SurfaceLeaf& leaf) {
-  const Piece& piece = surface.piece(leaf.piece);
-  Peak peak{-kInfinity, 0, 0};
-  const auto consider = [&](double u, double v) {
-    const double k = ConcaveCurvature(piece, u, v);
-    if (k <= peak.k) return false;
-    peak = {k, u, v};
-    return true;
-  };
-  const double wu = leaf.u1 - leaf.u0, wv = leaf.v1 - leaf.v0;
-  for (const double a : {0.02, 0.5, 0.98}) {
-    for (const double b : {0.02, 0.5, 0.98}) consider(leaf.u0 + a * wu, leaf.v0 + b * wv);
-  }
-  if (!(peak.k > 0.0)) return peak;
-  for (double step = 0.25; step > 0.02; step *= 0.5) {
-    const Peak from = peak;
-    for (const int du : {-1, 1})
-      consider(std::clamp(from.u + du * step * wu, double{leaf.u0}, double{leaf.u1}), from.v);
-    for (const int dv : {-1, 1})
-      consider(from.u, std::clamp(from.v + dv * step * wv, double{leaf.v0}, double{leaf.v1}));
-  }
-  return peak;
-}
-
 }  // namespace
 
 SurfacePoint LowestPoint(const Surface& surface, double tolerance) {
@@ -139,27 +97,6 @@ Box3 TightBox(const Surface& surface, double tolerance) {
     box.max[axis] = Extreme(surface, axis, -1.0, tolerance).p[axis];
   }
   return box;
-}
-
-ConcaveSpot SmallestConcaveRadius(const Surface& surface, const RunContext& run) {
-  constexpr std::size_t kBlock = 256;
-  const std::size_t blocks = (surface.leaves.size() + kBlock - 1) / kBlock;
-  std::vector<std::pair<Peak, std::size_t>> best(blocks, {Peak{-kInfinity, 0, 0}, 0});
-  const auto status = ParallelFor(run, nullptr, blocks, [&](std::size_t b) {
-    for (std::size_t i = b * kBlock; i < std::min(surface.leaves.size(), (b + 1) * kBlock); ++i) {
-      const Peak peak = LeafPeak(surface, surface.leaves[i]);
-      if (peak.k > best[b].first.k) best[b] = {peak, i};
-    }
-  });
-  ConcaveSpot spot;
-  if (!status.ok()) return spot;
-  for (const auto& [peak, leaf] : best) {
-    if (peak.k > 0.0 && 1.0 / peak.k < spot.radius) {
-      const PieceId id = surface.leaves[leaf].piece;
-      spot = {1.0 / peak.k, {id, peak.u, peak.v, Position(surface.piece(id), peak.u, peak.v)}};
-    }
-  }
-  return spot;
 }
 
 }  // namespace patchmill

@@ -1,4 +1,4 @@
-// Exact extremes of a surface: its lowest and highest point. Also an estimate of its smallest concave radius.
+// Exact extremes of a surface: its lowest and highest point, and its box.
 #pragma once
 
 #include "core/surface/surface.h"
@@ -15,15 +15,5 @@ SurfacePoint HighestPoint(const Surface& surface, double tolerance = 1e-7);
 // The box of the surface itself, each side exact to `tolerance` and never too large. (Surface::box is the box
 // of the leaf bounds.)
 Box3 TightBox(const Surface& surface, double tolerance = 1e-7);
-
-struct ConcaveSpot {
-  double radius =
-      kInfinity;  // mm, 1 / largest normal curvature towards the upward normal; infinity: nowhere concave
-  SurfacePoint at;
-};
-// The smallest concave radius over all points whose upward normal is not horizontal (e_z > 1e-6). It is found
-// by sampling every leaf and refining the best places by a pattern search. It is an estimate from above, not
-// a bound, because the curvature may peak between samples.
-ConcaveSpot SmallestConcaveRadius(const Surface& surface, const RunContext& run);
 
 }  // namespace patchmill

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/base/enum_array.h"
+#include "server/convert/setup.h"
 #include "server/errors.h"
 #include "server/limits.h"
 
@@ -17,6 +18,8 @@ namespace {
 constexpr EnumArray<SurfaceKind, v1::SurfaceKind> kKinds = {
     {v1::SURFACE_KIND_UNSPECIFIED, v1::SURFACE_KIND_PLANE, v1::SURFACE_KIND_CYLINDER, v1::SURFACE_KIND_CONE,
      v1::SURFACE_KIND_SPHERE, v1::SURFACE_KIND_TORUS, v1::SURFACE_KIND_SPLINE}};
+constexpr EnumArray<HoleEnd, v1::HoleEnd> kEnds = {
+    {v1::HOLE_END_OPEN, v1::HOLE_END_FLOOR, v1::HOLE_END_STEP}};
 
 }  // namespace
 
@@ -70,6 +73,28 @@ v1::Face ToProto(const ModelFace& face) {
   proto.set_hollow(face.hollow);
   proto.set_entity(face.entity);
   proto.set_skipped(face.skipped);
+  return proto;
+}
+
+v1::Hole ToProto(const Hole& hole, const PatchModel& model, const Vec3& zero) {
+  v1::Hole proto;
+  for (const FaceId face : hole.faces) proto.add_face_ids(Utf8(model.faces[face.index()].id));
+  proto.set_diameter_mm(hole.diameter);
+  proto.set_depth_mm(hole.depth);
+  *proto.mutable_mouth() = ToProto(Vec3(hole.mouth - zero));
+  for (const double component : hole.direction) proto.add_direction(component);
+  proto.set_first_end(kEnds[hole.ends[0]]);
+  proto.set_second_end(kEnds[hole.ends[1]]);
+  return proto;
+}
+
+v1::ConcaveFaces ToProto(const ConcaveFaces& group, const PatchModel& model) {
+  v1::ConcaveFaces proto;
+  proto.set_kind(kKinds[group.kind]);
+  proto.set_min_radius_mm(group.radius);
+  proto.set_max_tool_diameter_mm(2.0 * group.radius);
+  for (const FaceId face : group.faces) proto.add_face_ids(Utf8(model.faces[face.index()].id));
+  proto.set_area_mm2(group.area);
   return proto;
 }
 

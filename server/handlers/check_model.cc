@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "cam/limits/reach_tolerance.h"
+#include "cam/plan/concave_faces.h"
 #include "cam/plan/face_preview.h"
 #include "cam/plan/plan.h"
 #include "cam/plan/resolve.h"
@@ -13,6 +14,7 @@
 #include "core/lines/patch_crossings.h"
 #include "core/network/face_edges.h"
 #include "core/surface/face_figures.h"
+#include "core/surface/holes.h"
 #include "server/convert/enums.h"
 #include "server/convert/faces.h"
 #include "server/convert/joints.h"
@@ -65,6 +67,16 @@ absl::Status FillFaces(const v1::CheckModelRequest& request, const Surface& surf
   picture.set_name("faces.svg");
   picture.set_media_type("image/svg+xml");
   picture.set_data(DrawFaces(surface, figures, fmt::format("{} faces", faces.size())));
+  return absl::OkStatus();
+}
+
+absl::Status FillFeatures(const Surface& surface, const Vec3& zero, const RunContext& run,
+                          v1::CheckModelResponse* response) {
+  const PatchModel& model = surface.network.model;
+  PM_ASSIGN_OR_RETURN(const std::vector<ConcaveFaces> concave, GroupConcaveFaces(surface, run));
+  for (const ConcaveFaces& group : concave) *response->add_concave_faces() = ToProto(group, model);
+  PM_ASSIGN_OR_RETURN(const std::vector<Hole> holes, FindHoles(surface, run));
+  for (const Hole& hole : holes) *response->add_holes() = ToProto(hole, model, zero);
   return absl::OkStatus();
 }
 
@@ -148,6 +160,7 @@ absl::Status HandleCheckModel(const Call& call, const v1::CheckModelRequest& req
         FillNetwork(surface.network, response);
         if (steps > 0) AddJoints(continuity, response->mutable_joints());
         PM_RETURN_IF_ERROR(FillUpDirections(surface, job.setup.placement, run, response));
+        PM_RETURN_IF_ERROR(FillFeatures(surface, resolved.program_zero, run, response));
         PM_RETURN_IF_ERROR(FillFaces(request, surface, resolved.program_zero, run, response));
         return absl::OkStatus();
       });

@@ -14,6 +14,7 @@
 #include "tests/service/process.h"
 #include "tests/service/requests.h"
 #include "tests/support/faced_box.h"
+#include "tests/support/faced_turning.h"
 
 namespace patchmill {
 namespace {
@@ -413,6 +414,23 @@ TEST_F(Cli, FacesAreListedSelectedAndNamed) {
   const Finished none = Patchmill({"faces", bump_});
   EXPECT_EQ(none.status, 1);
   EXPECT_THAT(none.err, HasSubstr("the model has patches, but no faces"));
+}
+
+// A disc with a counterbored hole, by name and in the figures of its closed form.
+TEST_F(Cli, CheckListsConcaveFacesAndHoles) {
+  using testing::Bore, testing::Pin, testing::Ring;
+  const PatchModel disc = testing::TurnedPart(
+      {Pin(20, 0, 10), Ring(20, 5, 10), Bore(5, 10, 6), Ring(5, 3, 6), Bore(3, 6, 0), Ring(3, 20, 0)});
+  const Finished check = Patchmill({"check", in_.Write("disc.json", Json(ToProto(disc)))});
+  EXPECT_EQ(check.status, 0) << check.err;
+  EXPECT_THAT(check.out, AllOf(HasSubstr("cylinder R 3        ball D 6           1 face       113.1 mm2  f5"),
+                               HasSubstr("cylinder R 5        ball D 10          1 face      125.66 mm2  f3"),
+                               HasSubstr("smallest radius 3 mm, not tighter than the ball's 3 mm"),
+                               HasSubstr("holes        2\n"),
+                               HasSubstr("  1 x diameter 10, depth 4, down to a step, along -Z: f3\n"),
+                               HasSubstr("  1 x diameter 6, depth 6, open at both ends, along -Z: f5\n")));
+  const Finished plain = Patchmill({"check", bump_});
+  EXPECT_THAT(plain.out, ::testing::Not(HasSubstr("holes")));
 }
 
 TEST_F(Cli, ANetworkIsCheckedJointByJointAndMilled) {

@@ -45,17 +45,5 @@ TEST(LowestPoint, LiesOnTheSurfaceAndNothingIsLower) {
   }
 }
 
-TEST(SmallestConcaveRadius, MatchesClosedForms) {
-  const RunContext run;
-  const ConcaveSpot bowl = SmallestConcaveRadius(Build(testing::Paraboloid(0.05, 10)), run);
-  EXPECT_NEAR(bowl.radius, 1 / (2 * 0.05), 0.02);
-  const ConcaveSpot valley = SmallestConcaveRadius(Build(testing::ParabolicValley(0.1, 10)), run);
-  EXPECT_NEAR(valley.radius, 5.0, 0.01);
-  EXPECT_NEAR(valley.at.p.x(), 0.0, 0.3);
-  EXPECT_EQ(SmallestConcaveRadius(Build(testing::Sphere(Vec3::Zero(), 10, Half::kUpper)), run).radius,
-            kInfinity);
-  EXPECT_EQ(SmallestConcaveRadius(Build(testing::Plane(10)), run).radius, kInfinity);
-}
-
 }  // namespace
 }  // namespace patchmill

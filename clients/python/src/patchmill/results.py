@@ -237,6 +237,9 @@ class CheckResult(CheckModelResponse):
                       [f"{self.joined_edge_count} joined edges, gap {self.max_gap_mm:.4g} mm, angle {self.max_angle_deg:.3g} degrees; "
                        f"{self.open_edge_count} open edges",
                        "no concave place" if radius is None else f"smallest concave radius: {radius:.4g} mm"],
+                      [f"concave faces ({g.kind.name.removeprefix('SURFACE_KIND_').lower()}): R {g.min_radius_mm:.5g} mm on "
+                       f"{len(g.face_ids)}, first {g.face_ids[0]}" for g in self.concave_faces],
+                      [f"hole {h.face_ids[0]}: diameter {h.diameter_mm:.6g} mm, depth {h.depth_mm:.5g} mm" for h in self.holes],
                       finding_lines(self.diagnostics))
 
 
