@@ -19,8 +19,9 @@ struct LeftoverParams {
   double most = kInfinity;             // mm: no larger leftover is reported, even if nothing is cut at all
 };
 
-// How a point counts for the finish. kUnwanted means outside a contact boundary or outside the part. Patches
-// that are not selected have no root cells.
+// How a point counts for the finish. kUnderside means that the outer side of a closed body looks down
+// there, and that the tool does not reach the place. kUnwanted means outside a contact boundary or outside
+// the part. Patches that are not selected have no root cells.
 enum class FinishClass {
   kDone,
   kAboveLimit,
@@ -32,6 +33,7 @@ enum class FinishClass {
   kShank,
   kHolder,
   kOutside,
+  kUnderside,
   kUnwanted
 };
 constexpr FinishClass LastOf(FinishClass) { return FinishClass::kUnwanted; }

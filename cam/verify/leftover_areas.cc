@@ -121,7 +121,7 @@ int DeepestFor(std::size_t cells, const Spent& spent, double more = 2.0) {
 bool Unreachable(FinishClass kind) {
   return kind == FinishClass::kUndercut || kind == FinishClass::kConcave || kind == FinishClass::kFloor ||
          kind == FinishClass::kAvoided || kind == FinishClass::kShank || kind == FinishClass::kHolder ||
-         kind == FinishClass::kOutside;
+         kind == FinishClass::kOutside || kind == FinishClass::kUnderside;
 }
 
 // True for a reachable place, finished or not.
@@ -249,6 +249,8 @@ class AreaSampler {
         kind = FinishClass::kOutside;
         break;
     }
+    if (Unreachable(kind) && jet.sides.IsUnderside(jet.du.cross(jet.dv).normalized().z()))
+      return FinishClass::kUnderside;
     Extreme& known = sums.report.deepest[kind];
     if (hint_ >= 0) {
       // Any move is an upper bound for the distance, so most points need no search.

@@ -363,8 +363,10 @@ class Verifier {
     finishing(UpperPart::kShank, tool_.flute_length.value_or(0.0), report_.finishing_flute_length);
     finishing(UpperPart::kHolder, tool_.stickout.value_or(0.0), report_.finishing_stickout);
     for (const FinishClass kind : Enumerators<FinishClass>()) {
-      if (kind != FinishClass::kUnwanted) report_.total_area += areas.area[kind];
+      if (kind != FinishClass::kUnwanted && kind != FinishClass::kUnderside)
+        report_.total_area += areas.area[kind];
     }
+    report_.underside_area += areas.area[FinishClass::kUnderside];
     report_.reachable_area += ReachableOf(areas);
     report_.reachable_plan_area +=
         areas.plan_area[FinishClass::kDone] + areas.plan_area[FinishClass::kAboveLimit];

@@ -102,6 +102,9 @@ struct VerifyReport {
   double max_leftover = 0.0;  // mm, at reachable points
   VerifyPlace max_leftover_at;
   double reachable_area = 0.0, total_area = 0.0;  // mm^2
+  // mm^2, not reached, where the outer side of a closed body looks down: neither unreachable nor in the
+  // total.
+  double underside_area = 0.0;
   // The reachable area in squares whose side is the flat step-over of its scallop; absent without a scallop.
   std::optional<double> reachable_squares;
   EnumArray<UncutReason, double> unreachable_area{};  // mm^2

@@ -283,6 +283,10 @@ void PrintSummary(const MillOptions& options, const v1::Report& report) {
   fmt::print(stderr, "  leftover  {:.4f} mm at {}\n", report.max_leftover_mm(),
              Line(report.max_leftover_at()));
   fmt::print(stderr, "            {}\n", SpreadLine(report));
+  if (report.underside_area_mm2() > 0.0) {
+    fmt::print(stderr, "            {:.2f} mm2 of the part look down and do not count\n",
+               report.underside_area_mm2());
+  }
   if (const std::string skipped = SkippedLine(report); !skipped.empty()) {
     fmt::print(stderr, "  skipped   {}\n", skipped);
   }

@@ -261,12 +261,16 @@ struct Patch {
 
 // Largest |e_z| of the unit normal of a vertical face. Neither of its sides is the upper one.
 inline constexpr double kUprightFace = 1e-6;
+// Largest |e_z| of walls. They may lean by 6 degrees, also inwards.
+inline constexpr double kMostWallSlope = 0.1;
 
 // What is known of the two sides of a face (core/surface/air_sides.h).
 struct FaceSides {
   // The side of a vertical or an overhanging face that is air: 1 the side of du x dv, -1 the other side, 0
   // unknown.
   int air_side = 0;
+  // The side of a face of a closed body that is outside, as above; 0 for other faces, and if it is unknown.
+  int outer_side = 0;
   // Largest |e_z| with which a place of the face counts as vertical. It is larger than kUprightFace on a wall
   // that leans a little (UprightOf).
   double upright = kUprightFace;
@@ -278,6 +282,9 @@ struct FaceSides {
   bool Decides(double e_z) const {
     return air_side != 0 && (overhangs || (e_z <= upright && -e_z <= upright));
   }
+  // Whether the place belongs to the underside of a closed body: its outer side looks down, and it is no wall
+  // that leans in. `e_z`: the z component of its unit normal du x dv.
+  bool IsUnderside(double e_z) const { return outer_side * e_z < -kMostWallSlope; }
   // Whether no tool stands on a side of an area: the side looks down, or it is the back of the face.
   // `side`: 1 the side of du x dv, -1 the other. `highest`: the unit normals of that side have at most this
   // z component.

@@ -22,8 +22,7 @@ constexpr std::size_t kMostPlaces = 2000;  // per component
 constexpr double kDecides = 0.9;           // share of the open area in plan that makes a side the air side
 constexpr double kLeastSlope = 0.02;       // e_z; steeper places say nothing of the sky
 constexpr double kColumn = 1e-6, kOver = 1e-4;  // share of the box's diagonal
-constexpr double kMostWallSlope = 0.1;  // |e_z| of walls, which overhang wherever their air side looks down
-constexpr int kMostWallPlaces = 9;      // each way: so many places of a wall are looked at
+constexpr int kMostWallPlaces = 9;              // each way: so many places of a wall are looked at
 
 // A patch that is joined by an edge. `turn` is 1 if both have the same orientation, -1 otherwise.
 struct Neighbor {
@@ -188,7 +187,7 @@ class SideFinder {
       PM_ASSIGN_OR_RETURN(Decided loosely, Decide(of_patch));
       decided = Merged(std::move(decided), loosely);
     }
-    AirSides sides{std::move(decided.of_upright), {}, std::move(decided.undecided)};
+    AirSides sides{std::move(decided.of_upright), std::move(decided.outer), {}, std::move(decided.undecided)};
     sides.overhangs.assign(looks.size(), 0);
     PM_RETURN_IF_ERROR(ParallelFor(run_, nullptr, looks.size(), [&](std::size_t i) {
       const Piece& piece = surface_.pieces[i];
@@ -204,22 +203,26 @@ class SideFinder {
  private:
   // Air sides in the patches' own parameters: 1, -1, or 0 if unknown.
   struct Decided {
-    std::vector<int> of_upright;     // index: patch. Of patches with vertical faces
-    std::vector<int> of_component;   // index: patch. Of all patches of components that have an air side
+    std::vector<int> of_upright;    // index: patch. Of patches with vertical faces
+    std::vector<int> of_component;  // index: patch. Of all patches of components that have an air side
+    std::vector<int> outer;         // index: patch. Of all patches of closed components that have an air side
     std::vector<PatchId> undecided;  // with vertical faces, ascending
   };
 
   // `of_patch`, index: patch.
   absl::StatusOr<Decided> Decide(const std::vector<Looks>& of_patch) {
-    Decided decided{std::vector<int>(of_patch.size(), 0), std::vector<int>(of_patch.size(), 0), {}};
+    const std::vector<int> unknown(of_patch.size(), 0);
+    Decided decided{unknown, unknown, unknown, {}};
     for (const Component& component : FindComponents(neighbors_, orientation_)) {
       Looks all;
       for (const std::size_t patch : component.patches) all.Add(of_patch[patch], orientation_[patch]);
       if (!all.upright && !(all.over && all.under)) continue;
       PM_RETURN_IF_ERROR(run_.Check());
       const int side = component.one_sided ? 0 : SideOf(component);
+      const bool closed = IsClosed(component);
       for (const std::size_t patch : component.patches) {
         decided.of_component[patch] = side * orientation_[patch];
+        if (closed) decided.outer[patch] = decided.of_component[patch];
         if (!of_patch[patch].upright) continue;
         const int own = side != 0 ? decided.of_component[patch] : SideByNeighbors(patch);
         decided.of_upright[patch] = own;
@@ -251,6 +254,7 @@ class SideFinder {
       first.of_upright[patch.index()] = other.of_upright[patch.index()];
     for (std::size_t i = 0; i < first.of_component.size(); ++i) {
       if (first.of_component[i] == 0) first.of_component[i] = other.of_component[i];
+      if (first.outer[i] == 0) first.outer[i] = other.outer[i];
     }
     std::erase_if(first.undecided, [&](PatchId patch) { return first.of_upright[patch.index()] != 0; });
     return first;
@@ -270,6 +274,19 @@ class SideFinder {
       }
     }
     return false;
+  }
+
+  bool IsClosed(const Component& component) const {
+    const PatchNetwork& network = surface_.network;
+    if (network.edges.empty()) return false;  // a network without links, of which nothing is joined
+    if (network.open_edge_count == 0) return true;
+    return std::all_of(component.patches.begin(), component.patches.end(), [&](std::size_t patch) {
+      const auto first = network.edges.begin() + network.first_edge[patch];
+      const int count = EdgeCount(network.model.patches[patch].shape);
+      return std::all_of(first, first + count, [](const EdgeLink& link) {
+        return link.neighbor || link.collapsed || link.on_t_junction;
+      });
+    });
   }
 
   OpenArea OpenOf(std::size_t patch) const {
@@ -342,6 +359,7 @@ int OrientationOf(const Piece& piece) {
 void SetAirSides(const AirSides& sides, std::vector<Piece>& pieces) {
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     pieces[i].sides.air_side = sides.of_patch[pieces[i].patch.index()] * OrientationOf(pieces[i]);
+    pieces[i].sides.outer_side = sides.outer_of_patch[pieces[i].patch.index()] * OrientationOf(pieces[i]);
     pieces[i].sides.overhangs = sides.overhangs[i] != 0;
   }
 }

@@ -18,6 +18,9 @@ struct AirSides {
   // Index: patch. In its own parameters: 1 for the side of du x dv, -1 for the other side, 0 if unknown or if
   // nothing is vertical or overhangs.
   std::vector<int> of_patch;
+  // Index: patch. The outer side of patches of closed bodies, written in the same way; 0 for other
+  // patches, and if it is unknown. A body is closed if no edge of its component is open.
+  std::vector<int> outer_of_patch;
   // Index: piece of the surface. True if it overhangs (FaceSides::overhangs): its air side is known and looks
   // down at some place. The piece is a wall, within 6 degrees of vertical, or its back is open to the sky
   // there. Up to 81 places of a wall are looked at, nine of other pieces.
@@ -49,7 +52,8 @@ absl::StatusOr<AirSides> FindAirSides(const Surface& surface, const RunContext& 
 // Orientation of the piece's parameters relative to those of its patch: 1 or -1.
 int OrientationOf(const Piece& piece);
 
-// Writes the air side of each piece, in the piece's own parameters, and whether the piece overhangs.
+// Writes the air side and the outer side of each piece, in the piece's own parameters, and whether the piece
+// overhangs.
 void SetAirSides(const AirSides& sides, std::vector<Piece>& pieces);
 
 // Writes the air side of the pieces of one patch: 1 for the side of du x dv in its own parameters, -1 for the

@@ -314,6 +314,7 @@ void FillFromVerifier(const VerifyReport& verify, const Vec3& zero, bool scallop
   report->set_required_stickout_mm(Number(verify.required_stickout));
   report->set_reachable_area_mm2(Number(verify.reachable_area));
   report->set_total_area_mm2(Number(verify.total_area));
+  report->set_underside_area_mm2(Number(verify.underside_area));
   double unreachable = 0.0;
   for (const UncutReason reason : Enumerators<UncutReason>()) {
     const double area = Number(verify.unreachable_area[reason]);

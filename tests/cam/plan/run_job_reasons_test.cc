@@ -10,9 +10,15 @@
 #include "tests/support/files.h"
 #include "tests/support/jobs/jobs.h"
 #include "tests/support/shapes.h"
+#include "tests/support/walls.h"
 
 namespace patchmill {
 namespace {
+
+// A program that cuts nothing.
+constexpr const char* kNothing =
+    "G17 G21 G90 G94\nG53 G0 Z0\nT1 M6\nS1000 M3\nG43 H1\n"
+    "G0 X0 Y0\nG0 Z900\nM9\nM5\nG53 G0 Z0\nM2\n";
 
 using namespace testing;  // NOLINT: the support folder's
 
@@ -44,13 +50,12 @@ std::array<double, kReasons> FromRegions(const Surface& surface, const Job& job)
 std::array<double, kReasons> FromVerifier(const Surface& surface, const Job& job) {
   const auto resolved = Resolve(surface, job, RunContext());
   EXPECT_TRUE(resolved.ok()) << resolved.status();
-  const auto report = VerifyProgramText(surface, job.operation.tool,
-                                        "G17 G21 G90 G94\nG53 G0 Z0\nT1 M6\nS1000 M3\nG43 H1\n"
-                                        "G0 X0 Y0\nG0 Z900\nM9\nM5\nG53 G0 Z0\nM2\n",
+  const auto report = VerifyProgramText(surface, job.operation.tool, kNothing,
                                         MakeVerifyParams(job, *resolved), RunContext());
   EXPECT_TRUE(report.ok()) << report.status();
-  return {report->unreachable_area[UncutReason::kUndercut], report->unreachable_area[UncutReason::kConcave],
-          report->unreachable_area[UncutReason::kFloor]};
+  // The map has no reason of its own for undersides.
+  return {report->unreachable_area[UncutReason::kUndercut] + report->underside_area,
+          report->unreachable_area[UncutReason::kConcave], report->unreachable_area[UncutReason::kFloor]};
 }
 
 void ExpectAgreement(const PatchModel& model, const Job& job) {
@@ -91,8 +96,32 @@ TEST(Reasons, FloorBesideATallWallIsConcave) {
   EXPECT_NEAR(area[kConcave], strip + walls, 0.01 * (strip + walls));
 }
 
-// The inner side of a shell thinner than the ball: what is in the ball's way there is the outer side, but no
-// ball, however small, gets there from above.
+// The inner side of a shell thinner than the ball: what is in the ball's way there is the outer side, but
+// no ball, however small, gets there from above. What looks down on a closed block counts nowhere. Without
+// one wall the block is a sheet, and nothing of it is left out of the areas.
+TEST(Reasons, TheUndersideOfAClosedBlockDoesNotCount) {
+  const double x = 30, y = 20, z = 12;
+  const Job job = BallJob(3.0, /*deep=*/false);
+  const auto judge = [&](const PatchModel& model) {
+    const Surface surface = PlacedSurface(model, job.setup);
+    const auto resolved = Resolve(surface, job, RunContext());
+    EXPECT_TRUE(resolved.ok()) << resolved.status();
+    const auto report = VerifyProgramText(surface, job.operation.tool, kNothing,
+                                          MakeVerifyParams(job, *resolved), RunContext());
+    EXPECT_TRUE(report.ok()) << report.status();
+    return *report;
+  };
+  const double plan = 4 * x * y, walls = 4 * (x + y) * z;
+  const VerifyReport closed = judge(ClosedBlock(x, y, z));
+  EXPECT_NEAR(closed.underside_area, plan, 1e-6 * plan);
+  EXPECT_NEAR(closed.total_area, plan + walls, 1e-6 * plan);
+  PatchModel open = ClosedBlock(x, y, z);
+  open.patches.pop_back();
+  const VerifyReport sheet = judge(open);
+  EXPECT_EQ(sheet.underside_area, 0.0);
+  EXPECT_GT(sheet.total_area, 2 * plan);
+}
+
 TEST(Reasons, TheUndersideOfAThinShellIsUndercut) {
   const PatchModel model =
       Join({Sphere(Vec3::Zero(), 12.0, Half::kUpper), Sphere(Vec3::Zero(), 11.0, Half::kUpper)});

@@ -45,6 +45,44 @@ TEST(AirSides, WallsOfAClosedBlockLookOut) {
       1.0);
 }
 
+bool IsUnderside(const Surface& surface, std::size_t patch) {
+  const SurfaceJet jet = Evaluate(surface.piece(surface.first_piece[patch]), 0.5, 0.5);
+  return jet.sides.IsUnderside(jet.du.cross(jet.dv).normalized().z());
+}
+
+// Of a closed block the bottom, and no more. Nothing of a block without a wall, whichever way its patches
+// run.
+TEST(AirSides, ABottomIsTheUndersideOfAClosedBlock) {
+  PatchModel block = ClosedBlock(30, 20, 25);
+  const Surface closed = JoinedSurface(block);
+  int undersides = 0;
+  for (std::size_t k = 0; k < block.patches.size(); ++k) {
+    const Piece& piece = closed.piece(closed.first_piece[k]);
+    const bool bottom = Position(piece, 0.3, 0.3).z() == 0.0 && Position(piece, 0.7, 0.7).z() == 0.0;
+    EXPECT_EQ(IsUnderside(closed, k), bottom) << k;
+    undersides += bottom;
+  }
+  EXPECT_GT(undersides, 0);
+  std::erase_if(block.patches,
+                [](const Patch& patch) { return std::abs(Position(patch.shape, 0.3, 0.3).x()) == 30.0; });
+  const Surface open = JoinedSurface(block);
+  for (std::size_t k = 0; k < block.patches.size(); ++k) EXPECT_FALSE(IsUnderside(open, k)) << k;
+}
+
+// A closed body without upright walls: the lower half of a ball, up to where it is a wall.
+TEST(AirSides, TheLowerHalfOfABallIsItsUnderside) {
+  const Surface ball = JoinedSurface(Sphere(Vec3::Zero(), 10, Half::kAll));
+  for (const Piece& piece : ball.pieces) {
+    for (const double u : {0.2, 0.5, 0.8}) {
+      for (const double v : {0.2, 0.5, 0.8}) {
+        const SurfaceJet jet = Evaluate(piece, u, v);
+        EXPECT_EQ(jet.sides.IsUnderside(jet.du.cross(jet.dv).normalized().z()),
+                  jet.p.z() < -10.0 * kMostWallSlope);
+      }
+    }
+  }
+}
+
 // The walls of a box that leans in look up from behind, those of a block that widens upwards from inside.
 TEST(AirSides, WallsThatOverhangHaveTheSideOfWhatTheyAreJoinedTo) {
   for (const double lean : {1e-5, 1e-3, 0.02, 0.3, 1.0}) {
