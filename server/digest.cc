@@ -202,6 +202,7 @@ void AddLimits(const Job& job, Canonical& out) {
   }
   if (job.setup.up_auto) out.Add("up auto");
   if (!job.setup.up_face.empty()) out.Add("up face").Add(job.setup.up_face);
+  if (job.setup.cap_holes) out.Add("cap holes").Add(*job.setup.cap_holes);
   if (job.operation.one_way) out.Add("one way");
   AddStock(job.setup, out);
   if (job.setup.machine) AddMachine(*job.setup.machine, out);
@@ -249,6 +250,7 @@ std::string PlacementDigest(const Setup& setup, std::string_view model_digest) {
   out.Add("patchmill placement 1").Add(model_digest);
   AddPlacement(setup.placement, out);
   AddWallSides(setup.wall_sides, out);
+  if (setup.cap_holes) out.Add("cap holes").Add(*setup.cap_holes / setup.placement.scale);
   return out.Digest();
 }
 

@@ -76,6 +76,8 @@ struct Setup {
   bool up_auto = false;
   std::string up_face = {};               // id
   std::vector<WallSide> wall_sides = {};  // of walls that nothing else decides
+  // mm, > 0, of the placed model: holes of at most this diameter are capped before it is placed (CapHoles).
+  std::optional<double> cap_holes = std::nullopt;
   std::optional<Machine> machine = std::nullopt;
 };
 

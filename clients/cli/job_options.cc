@@ -186,6 +186,10 @@ void AddSetupOptions(CLI::App& app, SetupOptions& options) {
          "what points up on the machine: an axis of the model (x, y, z, -x, -y, -z), auto (the axis that "
          "shows most),\nor a plane face (f12), with its outer side")
       ->capture_default_str();
+  AddNumber(
+      app, "--cap-holes", options.cap_holes,
+      "close round holes of at most this diameter by caps over their mouths, and mill over them, mm;\nmodels "
+      "with faces");
   app.add_option("--translate", options.translate, "translation X,Y,Z after scaling and turning, mm")
       ->delimiter(',')
       ->expected(3)
@@ -240,6 +244,7 @@ absl::StatusOr<v1::Setup> MakeSetup(const SetupOptions& options, const std::stri
     setup.set_up_face(WireText(options.up, 200));
   }
   setup.set_scale(options.scale);
+  if (options.cap_holes) setup.set_cap_holes_mm(*options.cap_holes);
   if (!options.translate.empty()) {
     setup.mutable_translation()->set_x_mm(options.translate[0]);
     setup.mutable_translation()->set_y_mm(options.translate[1]);

@@ -17,6 +17,7 @@ namespace patchmill::cli {
 struct SetupOptions {
   double scale = 1.0;
   std::string up = "z";
+  std::optional<double> cap_holes;
   std::vector<double> translate;
   std::string zero;  // empty: not stated
   std::optional<double> stock_top;

@@ -22,7 +22,8 @@ struct Group {
 const std::vector<Group>& Groups() {
   static const auto* const groups = new std::vector<Group>{
       {"Part",
-       {"length-unit", "up", "scale", "translate", "zero", "border-tolerance", "skip-face", "wall-side"}},
+       {"length-unit", "up", "scale", "translate", "zero", "border-tolerance", "skip-face", "cap-holes",
+        "wall-side"}},
       {"Tool",
        {"tool", "tool-diameter", "tool-diameters", "flute-length", "shank-diameter", "stickout", "holder",
         "holder-clearance", "tool-number", "feed", "plunge-feed", "spindle", "coolant"}},

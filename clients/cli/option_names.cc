@@ -42,6 +42,7 @@ constexpr Entry kOptions[] = {
     {"regions_sha256", "--regions"},
     {"setup.up", "--up"},
     {"up_face", "--up"},
+    {"cap_holes_mm", "--cap-holes"},
     {"skip_faces", "--skip-face"},
     {"border_tolerance_mm", "--border-tolerance"},
     {"source.file.length_unit", "--length-unit"},

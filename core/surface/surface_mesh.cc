@@ -21,6 +21,7 @@ constexpr int kBorderParts = 8;              // of a cell's side on the border o
 constexpr double kBorderChord = 1.0 / 16.0;  // of the chord: neighbours meet there
 constexpr double kUpright = 1e-6;            // z of a normal that may point to either side
 constexpr double kBesideRim = 1e-3;          // of the way to the middle of the piece
+constexpr double kBesidePole = 1e-6;         // the same
 
 // The longest of three lines of the piece along an axis, mm.
 double LengthAlong(const Piece& piece, bool along_u) {
@@ -149,12 +150,18 @@ class PieceMesher {
 
   std::int64_t Key(int i, int j) const { return static_cast<std::int64_t>(i) * (steps_v_ + 1) + j; }
 
-  // The upward normal; on a rim where it may point to either side, to that of the surface beside it.
+  // The place a share of the way to the middle of the piece.
+  SurfaceJet Beside(double u, double v, double share) const {
+    return Evaluate(piece_, u + share * (0.5 - u), v + share * (0.5 - v));
+  }
+
+  // The upward normal; at a pole, where the parameters give none, that of the surface beside it; on a rim
+  // where it may point to either side, to that of the surface beside it.
   std::optional<Vec3> NormalAt(double u, double v, const SurfaceJet& jet) const {
     const auto normal = UpwardNormal(jet);
-    if (!normal || std::abs(normal->z()) > kUpright) return normal;
-    const SurfaceJet beside = Evaluate(piece_, u + kBesideRim * (0.5 - u), v + kBesideRim * (0.5 - v));
-    const auto towards = UpwardNormal(beside);
+    if (!normal) return UpwardNormal(Beside(u, v, kBesidePole));
+    if (std::abs(normal->z()) > kUpright) return normal;
+    const auto towards = UpwardNormal(Beside(u, v, kBesideRim));
     return towards && towards->dot(*normal) < 0.0 ? std::optional<Vec3>(-*normal) : normal;
   }
 

@@ -15,7 +15,8 @@ namespace patchmill {
 
 struct MeshVertex {
   SurfacePoint at;
-  // Unit, to the side from which the tool comes; zero where degenerate. On the rim of a sheet, where the
+  // Unit, to the side from which the tool comes; at a pole that of the surface beside it; zero where that is
+  // degenerate, too. On the rim of a sheet, where the
   // surface becomes vertical and either side may count, it is that of the surface beside the rim.
   Vec3 normal = Vec3::Zero();
   double slope = 0.0;              // rad, between the normal and +Z, [0, pi]

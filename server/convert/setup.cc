@@ -132,6 +132,11 @@ Setup FromProto(const v1::Setup& proto, std::string_view at, FieldErrors& errors
   setup.up_face = proto.up_face();
   if (!setup.up_face.empty() && proto.up() != v1::UP_AXIS_UNSPECIFIED)
     errors.Add(At(at, "up"), "is set together with up_face; set one of them");
+  if (proto.has_cap_holes_mm()) {
+    setup.cap_holes = proto.cap_holes_mm();
+    Require(errors, At(at, "cap_holes_mm"), proto.cap_holes_mm(),
+            proto.cap_holes_mm() > 0.0 && proto.cap_holes_mm() <= 1e5, "in (0, 1e5]");
+  }
   if (proto.has_scale()) {
     setup.placement.scale = proto.scale();
     Require(errors, At(at, "scale"), proto.scale(),
@@ -210,6 +215,7 @@ v1::Setup ToProto(const Setup& setup) {
   } else {
     proto.set_zero_anchor(ToProto(setup.zero));
   }
+  if (setup.cap_holes) proto.set_cap_holes_mm(*setup.cap_holes);
   *proto.mutable_stock() = StockToProto(setup);
   for (const WallSide& side : setup.wall_sides) {
     v1::WallSide& out = *proto.add_wall_sides();

@@ -9,6 +9,7 @@
 #include "cam/plan/choose_up.h"
 #include "cam/plan/plan.h"
 #include "core/base/status.h"
+#include "core/surface/cap_holes.h"
 #include "server/call.h"
 #include "server/convert/fields.h"
 #include "server/convert/job.h"
@@ -33,6 +34,12 @@ absl::Status RequireSound(const LoadedModel& model) {
 absl::StatusOr<UprightModel> MakeUpright(LoadedModel model, const Setup& setup, const RunContext& run) {
   PM_ASSIGN_OR_RETURN(ChosenUp chosen, ChooseUp(model.model, setup, run));
   for (Diagnostic& finding : chosen.findings) model.remarks.push_back(std::move(finding));
+  if (chosen.setup.cap_holes) {
+    const double diameter = *chosen.setup.cap_holes / chosen.setup.placement.scale;
+    PM_ASSIGN_OR_RETURN(CappedModel capped, CapHoles(std::move(model.model), diameter, run));
+    model.model = std::move(capped.model);
+    for (Diagnostic& finding : capped.findings) model.remarks.push_back(std::move(finding));
+  }
   return UprightModel{std::move(model), std::move(chosen.setup)};
 }
 
@@ -53,7 +60,8 @@ absl::Status LoadStock(const v1::Stock& stock, std::string_view at, Setup& setup
 Diagnostics HeaderRemarks(const Diagnostics& remarks) {
   Diagnostics stated;
   for (const Diagnostic& remark : remarks) {
-    if (remark.code == "UP_CHOSEN" || remark.code == "NOT_ALL_FACES") stated.push_back(remark);
+    if (remark.code == "UP_CHOSEN" || remark.code == "NOT_ALL_FACES" || remark.code == "HOLES_CAPPED")
+      stated.push_back(remark);
   }
   return stated;
 }

@@ -27,7 +27,8 @@ absl::StatusOr<PreparedJob> PrepareJob(const v1::Job& job, const v1::Post& post,
 // INVALID_ARGUMENT for a field that this version does not know. Such a field is never ignored silently.
 absl::Status RefuseUnknownFields(const google::protobuf::Message& request);
 
-// A model, and the set-up that its turn follows from (ChooseUp). What points up and why is among its remarks.
+// A model whose holes are capped (Setup::cap_holes), and the set-up that its turn follows from (ChooseUp).
+// What points up and why is among its remarks, and so is which holes are capped.
 struct UprightModel {
   LoadedModel model;
   Setup setup;

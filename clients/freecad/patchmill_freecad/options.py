@@ -62,6 +62,8 @@ PART_OPTIONS = (
     Option("ZeroPoint", PART, "Vector", (0.0, 0.0, 0.0), "Place of X0 Y0 Z0, turned by UpAxis, if ProgramZero is Point"),
     Option("BorderTolerance", PART, "Length", 0.0, "How far borders of patches may lie from the edges of faces. 0: 0.0001 mm",
            "import.border_tolerance_mm"),
+    Option("CapHoles", PART, "Length", 0.0, "Round holes of at most this diameter are closed, and the finish runs over them. 0: none",
+           "setup.cap_holes_mm"),
     Option("MillOutside", PART, "Bool", False, "Mill upright walls on the outer border, too", "operation.selection.mill_outside"),
 )
 

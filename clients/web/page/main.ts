@@ -29,7 +29,7 @@ const maxFileBytes = 64 * 2 ** 20 - 4096; // a request has 64 MiB, and not all o
 const debounceMs = 350;
 
 const choice = new Choice();
-const placement = ["length-unit", "up", "scale", "zero", "translate", "skip-face", "border-tolerance", "wall-side"];
+const placement = ["length-unit", "up", "scale", "zero", "translate", "skip-face", "border-tolerance", "cap-holes", "wall-side"];
 const checkNames = [...placement, "tool-diameter"];
 // Regions do not depend on what moves between passes, on the machine, on cutting data, and on the program.
 const motionNames = ["spindle", "feed", "plunge-feed", "coolant", "tool-number", "max-unreached"];

@@ -35,6 +35,7 @@ export const settings: readonly Setting[] = [
   s("translate", "part", "text", "Shift", { hint: "X,Y,Z", unit: "mm", help: "The model is shifted by this after it is scaled and turned.", fields: ["translation.x_mm", "translation.y_mm", "translation.z_mm"], isRare: true }),
   s("skip-face", "part", "list", "Faces left out", { help: "CAD files: these faces are not read (f12), for instance those that cannot be. The tool keeps off a box around each.", fields: ["skip_faces"], isRare: true }),
   s("border-tolerance", "part", "number", "Borders of faces", { unit: "mm", hint: "0.0001", help: "CAD files: how far the borders of patches may lie from the edges of faces where they cannot follow them exactly, in the file.", fields: ["border_tolerance_mm"], isRare: true }),
+  s("cap-holes", "part", "number", "Holes closed", { unit: "mm", help: "Round holes of at most this diameter are closed by caps over their mouths, and the finish runs over them.", fields: ["cap_holes_mm"], isRare: true }),
   s("wall-side", "part", "lines", "Sides of walls", { hint: "f7=0,-30,5", help: "One in each line: NAME=X,Y,Z, an upright wall that nothing else decides, and a point on the side where the tool stands, in coordinates of the placed model.", fields: ["wall_sides", "wall_sides.patch_id", "wall_sides.air"], isRare: true }),
 
   s("tool-diameter", "tool", "number", "Ball diameter", { unit: "mm", hint: "6", help: "Diameter of the ball.", fields: ["ball_end.diameter_mm"] }),

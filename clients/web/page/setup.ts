@@ -90,10 +90,12 @@ export function makePlacement(choice: Choice): Setup {
   const up = choice.get("up");
   const axis = axes.get(up);
   const translate = choice.get("translate");
+  const capHolesMm = numberOf(choice, "cap-holes");
   return create(SetupSchema, {
     ...(axis === undefined ? { upFace: wireText(up, 200) } : { up: axis }),
     scale: mustNumber(choice, "scale"),
     ...(translate === "" ? {} : { translation: pointOf(numbersOf(translate, [3], "translate", "X,Y,Z")) }),
+    ...(capHolesMm === undefined ? {} : { capHolesMm }),
     wallSides: choice.list("wall-side").map(makeWallSide),
     zero: makeZero(choice.get("zero")),
   });

@@ -47,6 +47,7 @@ const cases = {
   "a machine without more": { "machine-x": "-400,0,10000,5000,500", "machine-y": "-250,0,10000,5000,500", "machine-z": "-200,0,5000,3000,300" },
   "an own post file, inches": { post: "./shop.post", inch: "1", "control-deviation": "0.01" },
   "a wall with its side": { "wall-side": ["wall=100,20,5"] },
+  "holes closed": { "cap-holes": "6.5" },
   "boundary": { boundary: ["5,5 100,5 100,50 5,50", "20,20 30,20 30,30"], "boundary-mode": "inside", "boundary-offset": "1.5" },
   "a region off": { region: ["30,30,19.125:off"] },
 };
