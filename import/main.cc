@@ -22,6 +22,7 @@
 #include "core/trim/trim_model.h"
 #include "import/occt/read_part.h"
 #include "import/process_limits.h"
+#include "import/system_calls.h"
 #include "import/wire_result.h"
 
 namespace patchmill {
@@ -169,7 +170,7 @@ int main(int argc, char** argv) {
   const int fd = dup(STDOUT_FILENO);
   if (fd < 0 || dup2(STDERR_FILENO, STDOUT_FILENO) < 0) return 2;
   const Answers answers(fd);
-  if (!LimitThisProcess({})) {
+  if (!LimitThisProcess({}) || LimitSystemCalls() == SystemCalls::kFailed) {
     answers.Error("IMPORT_LIMIT", "the importer's limits could not be set");
     return 2;
   }

@@ -20,7 +20,8 @@ test_packages=(
   python3 clang-format-14 linuxcnc-uspace librsvg2-bin python3-grpcio python3-protobuf chromium
   python3-numpy python3-yaml curl python3-build python3-setuptools python3-wheel python3-venv mypy flake8 openssl libfaketime nginx-light
 )
-cad_packages=(libocct-data-exchange-dev)  # Open CASCADE reads STEP and IGES; without it patchmill-import is not built
+# Open CASCADE reads STEP and IGES; without it patchmill-import is not built. libseccomp limits what that may do.
+cad_packages=(libocct-data-exchange-dev libseccomp-dev)
 case "$what" in
   all) packages=("${build_packages[@]}" "${cad_packages[@]}" "${test_packages[@]}") ;;
   build) packages=("${build_packages[@]}") ;;
