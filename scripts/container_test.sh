@@ -3,7 +3,7 @@
 # metrics, log, a read-only file system, limit of memory, a job with the bytes of the command line, a drain under load, what the image
 # consists of. Uses docker where an engine runs, else podman, and makes a base image where no registry is at hand.
 #   scripts/container_test.sh
-# PATCHMILL_BIN: folder with patchmill and patchmilld, built on Debian 12; unset: build/release/bin.
+# PATCHMILL_BIN: folder with patchmill, patchmilld and patchmill-import, built on Debian 12; unset: build/release/bin.
 # BASE: the base image; unset: debian:bookworm-slim.
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -19,7 +19,7 @@ fail() {
 step() { echo "container: $*, $SECONDS s"; }
 as_root=()
 [ "$(id -u)" -eq 0 ] || as_root=(sudo)
-for program in patchmill patchmilld; do
+for program in patchmill patchmilld patchmill-import; do
   [ -x "$bin/$program" ] || { echo "container: there is no $bin/$program; build it first (cmake --build --preset release)" >&2; exit 2; }
 done
 
@@ -58,6 +58,8 @@ CONF
     # As the slim images of Debian are made: without manuals, translations and documents.
     slim=(--dpkgopt='path-exclude=/usr/share/doc/*' --dpkgopt='path-include=/usr/share/doc/*/copyright')
     for folder in man locale info groff lintian; do slim+=("--dpkgopt=path-exclude=/usr/share/$folder/*"); done
+    # shellcheck disable=SC2016  # the hook is expanded by mmdebstrap
+    slim+=('--customize-hook=rm -rf "$1"/var/lib/apt/lists/* "$1"/var/cache/apt/*')
     mmdebstrap --quiet --variant=minbase "${slim[@]}" bookworm "$work/base.tar" "${sources[@]}"
     podman import --quiet "$work/base.tar" "$base" >/dev/null
     rm "$work/base.tar"
@@ -72,7 +74,7 @@ trap cleanup EXIT
 # The image, from a context that has the programs and little else.
 context="$work/context"
 mkdir -p "$context/programs" "$context/scripts"
-cp "$bin/patchmill" "$bin/patchmilld" "$context/programs/"
+cp "$bin/patchmill" "$bin/patchmilld" "$bin/patchmill-import" "$context/programs/"
 cp Dockerfile CMakeLists.txt LICENSE THIRD_PARTY.md "$context/"
 cp scripts/sbom.py scripts/setup.sh "$context/scripts/"
 version=$("$bin/patchmilld" --version | awk '{ print $2 }')
@@ -95,6 +97,10 @@ stated = {f"{p['name']} {p['versionInfo']}" for p in packages if p["SPDXID"].sta
 missing = set(open(sys.argv[2]).read().splitlines()) - stated
 assert not missing and len(stated) > 50, missing
 PY
+
+"$engine" run --rm --entrypoint dpkg-query "$image" -W -f '${Package}\n' > "$work/packages"
+if grep -qE '^(libx11|libgl1|libocct-visualization)' "$work/packages"; then fail "it has X11 or what draws with it"; fi
+"$engine" run --rm --entrypoint dpkg "$image" --audit > "$work/audit" && [ ! -s "$work/audit" ] || { cat "$work/audit" >&2; fail "a package of it is broken"; }
 
 status=0
 "$engine" run --rm --name "$name" "$image" 2>"$work/bare" || status=$?
@@ -166,6 +172,13 @@ import json, sys
 lines = [json.loads(line) for line in sys.stdin]
 assert any("call ends" in json.dumps(line) and "shop" in json.dumps(line) for line in lines), lines' || fail "its log is not JSON with the caller"
 step "the job has the bytes of the command line, rs274 reads it, metrics and log have it"
+
+part=tests/models/cad/dome.step
+"$bin/patchmill" convert "$part" "$work/remote.pb" --server "localhost:$port" "${remote[@]}" 2>"$work/convert.err" \
+  || { cat "$work/convert.err" >&2; fail "it does not read a STEP file"; }
+"$bin/patchmill" convert "$part" "$work/local.pb" 2>/dev/null
+cmp "$work/remote.pb" "$work/local.pb" || fail "it reads a STEP file otherwise than the command line"
+step "it reads a STEP file"
 
 jobs=()
 for k in 1 2 3 4; do

@@ -23,7 +23,7 @@ build() {  # build PRESET [targets]
   cmake --build --preset "$preset" ${1:+--target "$@"}
 }
 programs() {  # patchmill and patchmilld, where PATCHMILL_BIN does not say that they are there
-  if [ -n "${PATCHMILL_BIN:-}" ]; then scripts/setup.sh; else build release patchmill patchmilld; fi
+  if [ -n "${PATCHMILL_BIN:-}" ]; then scripts/setup.sh; else build release patchmill patchmilld patchmill-import; fi
 }
 
 soak() {
