@@ -273,14 +273,38 @@ BezierPatch FanPatch(HomogeneousCurve curve, const Vec3& middle, const Vec3& nor
   return patch;
 }
 
-// nullopt for a border that is no curve with positive weights.
-std::optional<Cap> CapOf(const Surface& surface, const Mouth& mouth) {
-  std::set<PatchEdge> edges;  // of the outer faces: several joints may share one
-  for (const Joint& joint : mouth.joints) edges.insert(joint.other);
-  std::vector<HomogeneousCurve> curves;
-  for (const PatchEdge& edge : edges) {
-    for (HomogeneousCurve& curve : CurvesOf(surface, edge)) curves.push_back(std::move(curve));
+// Whether the curves form closed loops: each end meets one other end.
+bool AreClosed(const std::vector<HomogeneousCurve>& curves, double tolerance) {
+  std::vector<Vec3> ends;
+  for (const HomogeneousCurve& curve : curves) {
+    ends.push_back(PointOf(curve.front()));
+    ends.push_back(PointOf(curve.back()));
   }
+  return !ends.empty() && std::all_of(ends.begin(), ends.end(), [&](const Vec3& end) {
+    return std::count_if(ends.begin(), ends.end(),
+                         [&](const Vec3& other) { return (other - end).norm() <= tolerance; }) == 2;
+  });
+}
+
+// The border of a mouth: the edges of the outer faces, to which the cap is joined edge by edge, if they close. They may
+// not, because an edge that runs along two others at once has no joint; then those of the faces inside. Empty if neither
+// close.
+std::vector<HomogeneousCurve> BorderOf(const Surface& surface, const Mouth& mouth) {
+  for (const auto side : {&Joint::other, &Joint::edge}) {
+    std::set<PatchEdge> edges;  // several joints may share one
+    for (const Joint& joint : mouth.joints) edges.insert(joint.*side);
+    std::vector<HomogeneousCurve> curves;
+    for (const PatchEdge& edge : edges) {
+      for (HomogeneousCurve& curve : CurvesOf(surface, edge)) curves.push_back(std::move(curve));
+    }
+    if (AreClosed(curves, 2.0 * surface.network.join_tolerance)) return curves;
+  }
+  return {};
+}
+
+// nullopt for a border that is no closed curve with positive weights.
+std::optional<Cap> CapOf(const Surface& surface, const Mouth& mouth) {
+  const std::vector<HomogeneousCurve> curves = BorderOf(surface, mouth);
   Cap cap;
   double all = 0.0;
   for (const HomogeneousCurve& curve : curves) {
@@ -380,13 +404,18 @@ absl::StatusOr<CappedModel> CapHoles(PatchModel model, double diameter, const Ru
       continue;
     }
     std::vector<Cap> made;
-    bool stands_out = false;
+    bool stands_out = false, rim_is_closed = true;
     for (const Mouth& mouth : inside->mouths) {
       std::optional<Cap> cap = CapOf(surface, mouth);
+      if (!cap) rim_is_closed = false;
       if (!cap || cap->off_plane > kMostOffPlane * hole.diameter) break;
       stands_out =
           stands_out || StandsOut(surface, inside->faces, *cap, cap->off_plane + kSlack * hole.diameter);
       made.push_back(*std::move(cap));
+    }
+    if (!rim_is_closed) {
+      refuse(hole, "the edges around a mouth do not close");
+      continue;
     }
     if (made.size() < inside->mouths.size()) {
       refuse(hole,
