@@ -388,6 +388,7 @@ std::vector<NamedService> MakeServices(ServerEnv* env) {
                          .Add("TabulateReach", HandleTabulateReach)
                          .Add("TraceLines", HandleTraceLines)
                          .Add("EvaluateSurface", HandleEvaluateSurface)
+                         .Add("Preview", HandlePreview)
                          .Build());
   services.push_back(ServiceBuilder(env, v1::ToolpathService::service_full_name())
                          .Add("GenerateProgram", HandleGenerateProgram)

@@ -74,7 +74,8 @@ bool Store::ForgetModel(const std::string& caller, const std::string& digest) {
   const std::lock_guard<std::mutex> lock(mutex_);
   for (auto entry = entries_.begin(); entry != entries_.end();) {
     const auto next = std::next(entry);
-    if ((entry->key.kind == Stored::kAnswer || entry->key.kind == Stored::kSurface) &&
+    if ((entry->key.kind == Stored::kAnswer || entry->key.kind == Stored::kSurface ||
+         entry->key.kind == Stored::kJoined) &&
         entry->key.caller == caller && entry->from == digest)
       Erase(entry);
     entry = next;

@@ -1,6 +1,6 @@
 // What the server keeps between calls: models that were uploaded, CAD files that were read, surfaces that
-// were built, answers of jobs. One store with one limit of memory: what nobody has used for longest is
-// forgotten first.
+// were built, networks that were joined, answers of jobs. One store with one limit of memory: what nobody has
+// used for longest is forgotten first.
 #pragma once
 
 #include <any>
@@ -19,7 +19,7 @@
 namespace patchmill {
 
 // What a value of the store is.
-enum class Stored { kModel, kImport, kSurface, kAnswer };
+enum class Stored { kModel, kImport, kSurface, kJoined, kAnswer };
 
 struct StoreKey {
   Stored kind = Stored::kModel;
@@ -51,8 +51,8 @@ class Store {
     const auto* found = std::any_cast<std::shared_ptr<const T>>(&value);
     return found == nullptr ? nullptr : *found;
   }
-  // Forgets a model of a caller, and all surfaces and answers that were made from it. False: there was no
-  // such model.
+  // Forgets a model of a caller, and all surfaces, joined networks and answers that were made from it. False:
+  // there was no such model.
   bool ForgetModel(const std::string& caller, const std::string& digest);
 
   struct Figures {

@@ -29,7 +29,8 @@ bool SameEdge(int a, int b, int c, int d) { return std::minmax(a, b) == std::min
 
 class Editor {
  public:
-  Editor(CurveNetwork network, const RunContext& run) : network_(std::move(network)), run_(run) {
+  Editor(CurveNetwork network, const JoinedNetwork* joined, const RunContext& run)
+      : network_(std::move(network)), run_(run), given_(joined) {
     for (std::size_t k = 0; k < network_.edges.size(); ++k) edge_of_.push_back(static_cast<int>(k));
   }
 
@@ -306,6 +307,7 @@ class Editor {
   }
   absl::Status Changed() {
     joined_.reset();
+    given_ = nullptr;
     return absl::OkStatus();
   }
 
@@ -440,6 +442,7 @@ class Editor {
   }
 
   absl::Status Join(const std::string& at) {
+    if (!joined_ && given_ != nullptr) joined_ = *given_;
     if (!joined_) {
       network_.controls = controls_.List();
       PM_ASSIGN_OR_RETURN(joined_, JoinNetwork(network_, run_));
@@ -502,17 +505,16 @@ class Editor {
   Diagnostics findings_;
   ControlStore controls_;                // with the edits; the controls in network_ are older
   std::optional<JoinedNetwork> joined_;  // with the edits; empty after a change
+  const JoinedNetwork* given_;           // before all edits; null if unknown, and after a change
 };
 
-}  // namespace
-
-absl::StatusOr<EditedNetwork> EditNetwork(CurveNetwork network, const std::vector<NetworkEdit>& edits,
-                                          const RunContext& run) {
+absl::StatusOr<EditedNetwork> Apply(CurveNetwork network, const JoinedNetwork* joined,
+                                    const std::vector<NetworkEdit>& edits, const RunContext& run) {
   if (edits.size() > kMaxEdits) {
     return absl::InvalidArgumentError(
         fmt::format("edits are {}; must be at most {}", edits.size(), kMaxEdits));
   }
-  Editor editor(std::move(network), run);
+  Editor editor(std::move(network), joined, run);
   PM_RETURN_IF_ERROR(editor.ReadControls());
   for (std::size_t k = 0; k < edits.size(); ++k) {
     PM_RETURN_IF_ERROR(run.Check());
@@ -521,6 +523,18 @@ absl::StatusOr<EditedNetwork> EditNetwork(CurveNetwork network, const std::vecto
     PM_RETURN_IF_ERROR(std::visit([&](const auto& edit) { return editor.Apply(edit, at); }, edits[k]));
   }
   return editor.Take();
+}
+
+}  // namespace
+
+absl::StatusOr<EditedNetwork> EditNetwork(CurveNetwork network, const std::vector<NetworkEdit>& edits,
+                                          const RunContext& run) {
+  return Apply(std::move(network), nullptr, edits, run);
+}
+
+absl::StatusOr<EditedNetwork> EditNetwork(CurveNetwork network, const JoinedNetwork& joined,
+                                          const std::vector<NetworkEdit>& edits, const RunContext& run) {
+  return Apply(std::move(network), &joined, edits, run);
 }
 
 }  // namespace patchmill

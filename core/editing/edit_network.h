@@ -15,6 +15,7 @@
 #include "core/editing/goals.h"
 #include "core/editing/split_faces.h"
 #include "core/joining/curve_network.h"
+#include "core/joining/join_network.h"
 
 namespace patchmill {
 
@@ -128,5 +129,8 @@ struct EditedNetwork {
 // since it was last joined.
 absl::StatusOr<EditedNetwork> EditNetwork(CurveNetwork network, const std::vector<NetworkEdit>& edits,
                                           const RunContext& run = {});
+// The same for a network that is joined already: `joined` is the result of JoinNetwork(network).
+absl::StatusOr<EditedNetwork> EditNetwork(CurveNetwork network, const JoinedNetwork& joined,
+                                          const std::vector<NetworkEdit>& edits, const RunContext& run);
 
 }  // namespace patchmill

@@ -1,13 +1,12 @@
-#include <algorithm>
-#include <set>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include "core/base/status.h"
+#include "core/editing/changed_faces.h"
 #include "core/joining/continuity.h"
 #include "core/joining/join_network.h"
 #include "core/joining/network_findings.h"
-#include "core/network/control_points.h"
 #include "server/convert/editing.h"
 #include "server/convert/joints.h"
 #include "server/convert/report.h"
@@ -18,21 +17,6 @@
 
 namespace patchmill {
 namespace {
-
-bool SamePatch(const PatchShape& a, const PatchShape& b) {
-  return std::ranges::equal(ControlPoints(a), ControlPoints(b)) && std::ranges::equal(Bulges(a), Bulges(b));
-}
-
-// Faces that an edit has added count as changed.
-void AddChanged(const JoinedNetwork& before, const JoinedNetwork& after, v1::EditModelResponse* response) {
-  std::set<int> changed;
-  for (std::size_t f = 0; f < after.model.patches.size(); ++f) {
-    const bool known = f < before.model.patches.size() && before.face_of[f] == after.face_of[f];
-    if (known && SamePatch(before.model.patches[f].shape, after.model.patches[f].shape)) continue;
-    changed.insert(after.face_of[f]);
-  }
-  response->mutable_changed_faces()->Add(changed.begin(), changed.end());
-}
 
 absl::Status Edit(const Call& call, const v1::EditModelRequest& request, const RunContext& run,
                   v1::EditModelResponse* response) {
@@ -61,7 +45,10 @@ absl::Status Edit(const Call& call, const v1::EditModelRequest& request, const R
     return absl::OkStatus();
   }
   PM_ASSIGN_OR_RETURN(const JoinedNetwork joined_before, JoinNetwork(before, run));
-  if (!joined_before.model.patches.empty()) AddChanged(joined_before, joined, response);
+  if (!joined_before.model.patches.empty()) {
+    const std::vector<int> changed = ChangedFaces(joined_before, joined);
+    response->mutable_changed_faces()->Add(changed.begin(), changed.end());
+  }
   if (request.with_patches()) *response->mutable_patches() = ToProto(joined.model);
   if (request.continuity_steps() == 0) return absl::OkStatus();
   PM_ASSIGN_OR_RETURN(const PatchNetwork network, BuildNetwork(std::move(joined.model), run));

@@ -5,7 +5,7 @@
 #include "cam/plan/plan.h"
 #include "cam/plan/resolve.h"
 #include "core/base/status.h"
-#include "core/diffgeo/forms.h"
+#include "core/diffgeo/principal_directions.h"
 #include "server/convert/fields.h"
 #include "server/convert/setup.h"
 #include "server/handlers/handlers.h"
@@ -29,14 +29,25 @@ void AddPoint(const SurfaceJet& jet, const Vec3& zero, v1::EvaluateSurfaceRespon
   const auto normal = UnitNormal(jet);
   FundamentalForms forms;
   PrincipalCurvatures principal;
+  PrincipalDirections directions;
+  double determinant = 0.0, contour = 0.0;
   if (normal) {
     forms = Forms(jet, *normal);
     principal = Principal(forms);
+    directions = DirectionsOf(jet, forms).value_or(PrincipalDirections());
+    // D and kappa_c are those of the normal that points up.
+    const double up = normal->z() < 0.0 ? -1.0 : 1.0;
+    determinant = up * ContourDeterminant(jet, forms);
+    contour = up * ContourCurvature(jet, forms);
   }
   Add(normal.value_or(Vec3::Zero()), response->mutable_normals());
   Add({forms.E, forms.F, forms.G}, response->mutable_first_form_mm2());
   Add({forms.L, forms.M, forms.N}, response->mutable_second_form_mm());
   Add({principal.k_min, principal.k_max}, response->mutable_principal_curvatures_per_mm());
+  Add(directions.min, response->mutable_principal_directions());
+  Add(directions.max, response->mutable_principal_directions());
+  Add({contour}, response->mutable_contour_curvatures_per_mm());
+  Add({determinant}, response->mutable_contour_determinants_mm3());
 }
 
 // Checks index and parameters of every point against the model.

@@ -51,6 +51,9 @@ absl::Status HandleTraceLines(const Call& call, const v1::TraceLinesRequest& req
 absl::Status HandleEvaluateSurface(const Call& call, const v1::EvaluateSurfaceRequest& request,
                                    v1::EvaluateSurfaceResponse* response);
 
+absl::Status HandlePreview(const Call& call, const v1::PreviewRequest& request,
+                           v1::PreviewResponse* response);
+
 absl::Status HandleTabulateReach(const Call& call, const v1::TabulateReachRequest& request,
                                  v1::TabulateReachResponse* response);
 

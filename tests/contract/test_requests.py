@@ -72,6 +72,10 @@ class Requests(unittest.TestCase):
                          [("LINE_KIND_CONTOUR", 2), ("LINE_KIND_CONTOUR", 5), ("LINE_KIND_EQUI_SLOPE", 30)])
         # The middle of the dome: control points with the weights 1/8, 3/8, 3/8, 1/8 either way.
         self.assertAlmostEqual(self.answer("EvaluateSurface")["points_mm"][2], (12 * 36 + 8 * 3 * 3) / 64)
+        # Both faces share the smooth edge between the pushed one and the one that reaches a goal.
+        preview = self.answer("Preview")
+        self.assertEqual(preview["changed_faces"], [0, 1])
+        self.assertEqual([len(p["position_mm"]) for p in preview["patches"]], [3 * 5 * 5] * 2)
         self.assertIn("linuxcnc", [post["name"] for post in self.answer("ListPosts")["posts"]])
 
     def test_a_wrong_field_is_refused_with_its_path(self):

@@ -67,7 +67,7 @@ void CheckStream(absl::Status (*handler)(const Call&, const Request&, const Sink
 // The first byte says which RPC the others are a request of.
 inline void CheckAnyRequest(std::string bytes) {
   if (bytes.empty()) return;
-  const auto which = static_cast<unsigned char>(bytes[0]) % 15;
+  const auto which = static_cast<unsigned char>(bytes[0]) % 16;
   bytes.erase(0, 1);
   switch (which) {
     case 0:
@@ -97,6 +97,8 @@ inline void CheckAnyRequest(std::string bytes) {
     case 12:
       return CheckUnary(HandleGetCapabilities, bytes);
     case 13:
+      return CheckUnary(HandlePreview, bytes);
+    case 14:
       return CheckStream(HandleGenerateProgram, bytes);
     default:
       return CheckStream(HandleVerifyProgram, bytes);

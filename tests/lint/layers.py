@@ -35,6 +35,7 @@ ALLOWED["core/crossing"] = UP_TO_NETWORK | {"core/joining"}
 ALLOWED["core/division"] = UP_TO_NETWORK | {"core/joining"}
 ALLOWED["core/exchange"] = set(core[: CORE.index("surface") + 1])
 ALLOWED["core/editing"] = set(core[: CORE.index("surface") + 1]) | {"core/joining"}
+ALLOWED["core/preview"] = set(core[: CORE.index("diffgeo") + 1])
 ALLOWED["core/fairing"] = {"core/base"}
 ALLOWED["core/brep"] = set(core[: CORE.index("patch") + 1])
 ALLOWED["core/trim"] = UP_TO_NETWORK | {"core/brep"}

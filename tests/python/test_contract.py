@@ -12,7 +12,8 @@ from support import ROOT
 # Functions for the methods of the contract.
 FUNCTIONS = {
     "GenerateProgram": milling.mill, "VerifyProgram": milling.verify, "ListPosts": milling.posts, "SplitRegions": analysis.regions,
-    "TabulateReach": analysis.reach, "TraceLines": analysis.lines, "EvaluateSurface": analysis.evaluate, "CheckModel": modelling.check,
+    "TabulateReach": analysis.reach, "TraceLines": analysis.lines, "EvaluateSurface": analysis.evaluate, "Preview": analysis.preview,
+    "CheckModel": modelling.check,
     "ConvertModel": modelling.convert, "BuildModel": modelling.build, "EditModel": modelling.edit, "FairCurve": modelling.fair,
     "FairNet": modelling.fair_net, "UploadModel": uploading.upload, "ForgetModel": uploading.forget,
     "GetCapabilities": asking.capabilities,

@@ -271,5 +271,29 @@ TEST_F(Evaluations, WrongPlaces) {
                                       HasSubstr("uv has 5 numbers; must have two for each of 2 points")));
 }
 
+// At x = 6, y = 0 of the bowl the slope is 0.6. The contour is a circle of radius 6, square to the meridian.
+TEST(Evaluate, HasDirectionsAndContourCurvature) {
+  const Embedded embedded;
+  v1::EvaluateSurfaceRequest request;
+  *request.mutable_source()->mutable_model() = Bowl();
+  request.add_patch_index(0);
+  request.add_uv(0.8);
+  request.add_uv(0.5);
+  grpc::ClientContext context;
+  v1::EvaluateSurfaceResponse response;
+  const grpc::Status status = embedded.analysis->EvaluateSurface(&context, request, &response);
+  ASSERT_TRUE(status.ok()) << status.error_message();
+  const double root = std::sqrt(1.36), contour = 0.1 / root;
+  ASSERT_EQ(response.principal_directions_size(), 6);
+  EXPECT_NEAR(std::abs(response.principal_directions(0)), 1.0 / root, 1e-12);  // the meridian bends less
+  EXPECT_NEAR(response.principal_directions(1), 0.0, 1e-12);
+  EXPECT_NEAR(std::abs(response.principal_directions(2)), 0.6 / root, 1e-12);
+  EXPECT_NEAR(std::abs(response.principal_directions(4)), 1.0, 1e-12);
+  ASSERT_EQ(response.contour_curvatures_per_mm_size(), 1);
+  EXPECT_NEAR(response.contour_curvatures_per_mm(0), contour, 1e-12);
+  ASSERT_EQ(response.contour_determinants_mm3_size(), 1);
+  EXPECT_NEAR(response.contour_determinants_mm3(0), 20 * 20 * 12 * 12 * contour, 1e-7);
+}
+
 }  // namespace
 }  // namespace patchmill

@@ -17,13 +17,13 @@ from .milling import VIEW
 from .models import Model
 from .paths import Path
 from .results import BuildResult, CheckResult, ConvertResult, EditResult, FairCurveResult, FairNetResult, LinesResult, MillResult
-from .results import ReachResult, RegionsResult, SurfaceValues, VerifyResult
+from .results import PreviewResult, ReachResult, RegionsResult, SurfaceValues, VerifyResult
 from .retry import Retry
 from .tools import ball
 from .uploading import UploadResult
 
 __all__ = [
     "AsyncClient", "BuildResult", "Canceller", "CheckResult", "Client", "ConvertResult", "EditResult", "FairCurveResult",
-    "FairNetResult", "LinesResult", "Mesh", "MillResult", "Model", "Path", "ReachResult", "RegionsResult", "Retry", "SurfaceValues",
-    "Tls", "UploadResult", "VIEW", "VerifyResult", "ball", *errors.__all__, *messages.__all__,
+    "FairNetResult", "LinesResult", "Mesh", "MillResult", "Model", "Path", "PreviewResult", "ReachResult", "RegionsResult", "Retry",
+    "SurfaceValues", "Tls", "UploadResult", "VIEW", "VerifyResult", "ball", *errors.__all__, *messages.__all__,
 ]

@@ -1,4 +1,4 @@
-"""The calls of AnalysisService: regions, reach, lines, evaluate."""
+"""The calls of AnalysisService: regions, reach, lines, evaluate, preview."""
 from __future__ import annotations
 
 from collections.abc import Sequence
@@ -9,11 +9,11 @@ from numpy.typing import ArrayLike
 from ._call import RPCS, Call, Canceller, One
 from ._message import from_message, set_fields
 from .meshes import mesh_of
-from .messages import Diagnostic, Job, LineFamily, Operation, Output, RegionMap, Setup
+from .messages import Diagnostic, Job, LineFamily, ModelEdit, Operation, Output, RegionMap, Setup
 from .milling import inline, set_job
 from .models import Model, ModelLike, model_of, set_name, set_source
-from .results import LinesResult, ReachResult, RegionsResult, SurfaceValues
-from .v1 import analysis_service_pb2, lines_pb2
+from .results import LinesResult, PreviewResult, ReachResult, RegionsResult, SurfaceValues
+from .v1 import analysis_service_pb2, lines_pb2, preview_pb2
 
 
 def regions(model: ModelLike, operation: Operation, *, setup: Setup | None = None, name: str | None = None,
@@ -93,4 +93,29 @@ def evaluate(model: ModelLike, patch_index: ArrayLike, uv: ArrayLike, *, setup: 
         return set_fields(request, setup=setup, patch_index=patch_index, uv=uv, max_threads=max_threads)
 
     return Call(RPCS["EvaluateSurface"], make(chosen), lambda: One(lambda answer: from_message(SurfaceValues, answer)),
+                inline(chosen, make), cancel=cancel, timeout_s=timeout_s)
+
+
+def preview(model: ModelLike, edits: ModelEdit | Sequence[ModelEdit] = (), *, all_faces: bool = False, cells: int | None = None,
+            families: LineFamily | Sequence[LineFamily] = (), tolerance_mm: float | None = None, min_loop_mm: float | None = None,
+            with_controls: bool = False, with_combs: bool = False, max_threads: int = 0, cancel: Canceller | None = None,
+            timeout_s: float | None = None) -> Call[PreviewResult]:
+    """What to draw of the faces that edits of a network change: triangles, edges, lines, control points, combs.
+
+    model: name an uploaded model, and the server joins its network once only.
+    edits: as for edit; all edits since the model, because the server remembers none.
+    all_faces: answer with all faces.
+    cells: steps along each side of a patch.
+    families: lines on these faces.
+    """
+    chosen = model_of(model)
+    listed = [edits] if isinstance(edits, ModelEdit) else list(edits)
+    drawn = [families] if isinstance(families, LineFamily) else list(families)
+
+    def make(m: Model) -> Any:
+        return set_fields(set_source(preview_pb2.PreviewRequest(), m), edits=listed, all_faces=all_faces, cells=cells, families=drawn,
+                          tolerance_mm=tolerance_mm, min_loop_mm=min_loop_mm, with_controls=with_controls, with_combs=with_combs,
+                          max_threads=max_threads)
+
+    return Call(RPCS["Preview"], make(chosen), lambda: One(lambda answer: from_message(PreviewResult, answer)),
                 inline(chosen, make), cancel=cancel, timeout_s=timeout_s)

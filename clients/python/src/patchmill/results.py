@@ -16,7 +16,7 @@ from ._text import figures_of, finding_lines, region_name, uncut_share
 from .errors import NoProgramError, PatchmillError
 from .messages import Accepted, ArcMove, BuildModelResponse, CheckModelResponse, CheckState, ConvertModelResponse, Diagnostic
 from .messages import EditModelResponse, EvaluateSurfaceResponse, FairCurveResponse, FairNetResponse, Job, Outcome, PathChunk
-from .messages import Region, RegionMap, Report, Setup, Severity, TabulateReachResponse, Tool, TraceLinesResponse
+from .messages import PreviewResponse, Region, RegionMap, Report, Setup, Severity, TabulateReachResponse, Tool, TraceLinesResponse
 from .meshes import Mesh
 from .paths import Path
 
@@ -275,6 +275,19 @@ class SurfaceValues(EvaluateSurfaceResponse):
         rows = [f"{point.tolist()}: normal {normal.tolist()}, curvatures {curvatures.tolist()} 1/mm" for point, normal, curvatures
                 in zip(self.points_mm[:5], self.normals, self.principal_curvatures_per_mm)]
         return _lines(f"{len(self.points_mm)} points", rows)
+
+
+class PreviewResult(PreviewResponse):
+    """What a picture replaces after edits."""
+
+    @property
+    def findings(self) -> Sequence[Diagnostic]:
+        return self.diagnostics
+
+    def __str__(self) -> str:
+        head = f"{len(self.changed_faces)} of {self.face_count} faces changed"
+        rows = [f"face {patch.face}: {len(patch.corners) // 3} triangles" for patch in self.patches[:10]]
+        return _lines(head, rows, finding_lines(self.diagnostics))
 
 
 class _ModelResult:

@@ -1,0 +1,21 @@
+// Triangles of a patch for a picture that changes while a hand drags. No path is planned on them.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "core/patch/patch.h"
+
+namespace patchmill {
+
+struct PatchMesh {
+  std::vector<Vec3> places;                 // on the surface
+  std::vector<Vec3> normals;                // unit, along S_u x S_v; zero where the parametrisation has none
+  std::vector<std::array<int, 3>> corners;  // anticlockwise about the normals
+};
+
+// Steps of equal length in the parameters, `cells` (>= 1) along each side. Two patches that share a whole
+// edge have the same places along it, to rounding. Cost: one evaluation for each place.
+PatchMesh MeshOf(const PatchShape& shape, int cells);
+
+}  // namespace patchmill
