@@ -100,7 +100,7 @@ def preview(model: ModelLike, edits: ModelEdit | Sequence[ModelEdit] = (), *, al
             families: LineFamily | Sequence[LineFamily] = (), tolerance_mm: float | None = None, min_loop_mm: float | None = None,
             with_controls: bool = False, with_combs: bool = False, max_threads: int = 0, cancel: Canceller | None = None,
             timeout_s: float | None = None) -> Call[PreviewResult]:
-    """What to draw of the faces that edits of a network change: triangles, edges, lines, control points, combs.
+    """What to draw of the faces that edits of a network change: triangles, edges, lines, controls, combs.
 
     model: name an uploaded model, and the server joins its network once only.
     edits: as for edit; all edits since the model, because the server remembers none.
