@@ -153,6 +153,15 @@ TEST(CapHoles, AHoleIntoAnOpenHollowStays) {
   EXPECT_EQ(WarningsOf(capped), 0);
 }
 
+// Where a quarter of the surface around the mouth is missing, no edges close around it.
+TEST(CapHoles, ARimWithAGapStaysOpen) {
+  PatchModel part = TurnedPart({kTop, Bore(3, 10, 4), Ring(3, 0, 4)});
+  part.patches.erase(part.patches.begin() + 1);
+  const CappedModel capped = Capped(part, 6.0);
+  EXPECT_EQ(WarningsOf(capped), 1);
+  EXPECT_EQ(capped.model.patches.size(), part.patches.size());
+}
+
 // Capping must not cut off a pin that stands in a hole.
 TEST(CapHoles, APinThatStandsOutStays) {
   for (const double top : {15.0, 9.0}) {
