@@ -40,6 +40,7 @@ struct LinesOptions {
   std::optional<int> count;
   std::optional<double> spacing;
   double tolerance = 0.01, min_loop = 0.1;
+  bool from_normals = false;
 };
 
 void SetPoint(const std::vector<double>& xyz, v1::Point3* point) {
@@ -59,6 +60,7 @@ absl::StatusOr<v1::TraceLinesRequest> MakeRequest(const LinesOptions& options, b
   if (!options.levels.empty() && options.kinds.size() > 1) {
     return absl::InvalidArgumentError("--levels belong to one --kind; several kinds are set");
   }
+  bool any_chooses = false;
   for (const std::string& kind : options.kinds) {
     v1::LineFamily& family = *request.add_families();
     family.set_kind(kKinds.at(kind));
@@ -68,7 +70,12 @@ absl::StatusOr<v1::TraceLinesRequest> MakeRequest(const LinesOptions& options, b
     for (const double level : options.levels) family.add_levels(level);
     if (options.count) family.set_count(*options.count);
     if (options.spacing) family.set_spacing_mm(*options.spacing);
+    const bool chooses = kind == "highlight" || kind == "brightness";
+    family.set_from_normals(options.from_normals && chooses);
+    any_chooses = any_chooses || chooses;
   }
+  if (options.from_normals && !any_chooses)
+    return absl::InvalidArgumentError("--from-normals is for --kind highlight and brightness");
   request.set_tolerance_mm(options.tolerance);
   request.set_min_loop_mm(options.min_loop);
   request.set_picture(picture);
@@ -150,6 +157,9 @@ Command AddLines(CLI::App& app) {
   AddVector(app, "--direction", options->direction, "X,Y,Z: axis, light or sight; default 0,0,1");
   AddVector(app, "--across", options->across,
             "X,Y,Z, for --kind highlight: a direction across --direction; default 1,0,0");
+  app.add_flag("--from-normals", options->from_normals,
+               "highlight, brightness: choose direction and levels, as far as they are not given, from the "
+               "normals that\noccur on the surface; flat panels show lines, too");
   AddVector(app, "--eye", options->eye, "X,Y,Z, for --kind eye: place of the eye, mm, program frame");
   AddNumber(app, "--tolerance", options->tolerance, "chord tolerance, mm");
   AddNumber(app, "--min-loop", options->min_loop, "every loop wider than this is found, mm");

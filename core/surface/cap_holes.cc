@@ -286,9 +286,9 @@ bool AreClosed(const std::vector<HomogeneousCurve>& curves, double tolerance) {
   });
 }
 
-// The border of a mouth: the edges of the outer faces, to which the cap is joined edge by edge, if they close. They may
-// not, because an edge that runs along two others at once has no joint; then those of the faces inside. Empty if neither
-// close.
+// The border of a mouth: the edges of the outer faces, to which the cap is joined edge by edge, if they
+// close. They may not, because an edge that runs along two others at once has no joint; then those of the
+// faces inside. Empty if neither close.
 std::vector<HomogeneousCurve> BorderOf(const Surface& surface, const Mouth& mouth) {
   for (const auto side : {&Joint::other, &Joint::edge}) {
     std::set<PatchEdge> edges;  // several joints may share one

@@ -22,10 +22,10 @@ struct CappedModel {
 // caps, those of floors and of other holes that open into this one too, are taken out of the model; each
 // mouth's cap is a new face, "cap1" and so on.
 //
-// A hole stays where its inside leads to the outside by another way, where the edges around a mouth do not close, where a mouth lies off its plane by
-// more than a tenth of the hole's diameter, or where something inside stands out of a mouth, as a pin does.
-// Cost: that of a network, a surface, and FindHoles. Errors: those of `run`. A model without faces comes
-// back as it is.
+// A hole stays where its inside leads to the outside by another way, where the edges around a mouth do not
+// close, where a mouth lies off its plane by more than a tenth of the hole's diameter, or where something
+// inside stands out of a mouth, as a pin does. Cost: that of a network, a surface, and FindHoles. Errors:
+// those of `run`. A model without faces comes back as it is.
 absl::StatusOr<CappedModel> CapHoles(PatchModel model, double diameter, const RunContext& run);
 
 }  // namespace patchmill

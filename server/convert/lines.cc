@@ -1,5 +1,6 @@
 #include "server/convert/lines.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -130,6 +131,15 @@ LineOrder FromProto(const v1::LineFamily& proto, const std::string& at, FieldErr
     order.levels.push_back(
         ReadLevel(proto.kind(), proto.levels(k), fmt::format("{}[{}]", At(at, "levels"), k), errors));
   }
+  order.from_normals = proto.from_normals();
+  order.has_direction = proto.has_direction();
+  if (order.from_normals && order.kind != v1::LINE_KIND_HIGHLIGHT && order.kind != v1::LINE_KIND_BRIGHTNESS) {
+    errors.Add(At(at, "from_normals"),
+               "is set; only HIGHLIGHT and BRIGHTNESS can be chosen from the normals");
+  }
+  if (order.from_normals && proto.has_across() && !proto.has_direction()) {
+    errors.Add(At(at, "across"), "is set, but no direction that it runs across; set both or none");
+  }
   if (proto.has_count()) {
     order.count = proto.count();
     if (order.count < 1 || order.count > limits::kMaxLineLevels) {
@@ -141,6 +151,34 @@ LineOrder FromProto(const v1::LineFamily& proto, const std::string& at, FieldErr
 }
 
 bool HasLevels(const LineOrder& order) { return !order.flow && !order.crossings && HasLevels(order.family); }
+
+LineOrder Chosen(LineOrder order, const OccurringNormals& normals) {
+  if (!order.from_normals) return order;
+  if (!order.has_direction && std::holds_alternative<HighlightLines>(order.family)) {
+    order.family = ChooseHighlights(normals);
+  } else if (!order.has_direction) {
+    order.family = ChooseBrightness(normals);
+  }
+  if (order.levels.empty()) {
+    order.levels = LevelsOfNormals(normals, order.family, order.count);
+    order.count = static_cast<int>(order.levels.size());
+  }
+  return order;
+}
+
+bool NeedsNormals(const std::vector<LineOrder>& orders) {
+  return std::any_of(orders.begin(), orders.end(), [](const LineOrder& order) { return order.from_normals; });
+}
+
+void AddChosen(const LineOrder& chosen, v1::LineSet& set) {
+  if (!chosen.from_normals) return;
+  if (const auto* highlights = std::get_if<HighlightLines>(&chosen.family)) {
+    *set.mutable_direction() = ToProto(highlights->plane);
+    *set.mutable_across() = ToProto(highlights->across);
+  } else if (const auto* brightness = std::get_if<BrightnessLines>(&chosen.family)) {
+    *set.mutable_direction() = ToProto(brightness->light);
+  }
+}
 
 LineOrder Placed(LineOrder order, const Vec3& zero) {
   if (auto* eye = std::get_if<EyeSilhouetteLines>(&order.family)) eye->eye += zero;

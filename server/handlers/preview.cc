@@ -104,7 +104,7 @@ absl::Status AddLines(const Surface& surface, const std::vector<int>& patches, c
     std::vector<double> wanted = line.levels;
     if (!HasLevels(line)) {
       wanted = {0.0};
-    } else if (wanted.empty()) {
+    } else if (wanted.empty() && line.count > 0) {
       wanted = ChooseLevels(surface, line.family, line.count);
     }
     for (const double level : wanted) {
@@ -137,6 +137,7 @@ absl::Status AddLines(const Surface& surface, const std::vector<int>& patches, c
         for (int& index : *made.mutable_patch_index()) index = patches[At(index)];
       }
       set.set_length_mm(length);
+      AddChosen(line, set);
     }
     if (points > limits::kMaxPolylinePoints) {
       return LimitError("line_points", limits::kMaxPolylinePoints, points);
@@ -218,8 +219,13 @@ absl::Status MakePreview(const Call& call, const v1::PreviewRequest& request, co
   response->mutable_changed_faces()->Add(changed.begin(), changed.end());
   PM_RETURN_IF_ERROR(AddPicture(joined, patches, order.detail, run, response));
   if (order.lines.empty() || patches.empty()) return absl::OkStatus();
+  // Of the network before the edits, so that families stay what they are while a hand drags.
+  const OccurringNormals normals =
+      NeedsNormals(order.lines) ? NormalsOf(base->joined.model.patches) : OccurringNormals();
+  PreviewOrder chosen = order;
+  for (LineOrder& line : chosen.lines) line = Chosen(std::move(line), normals);
   PM_ASSIGN_OR_RETURN(const Surface surface, SurfaceOf(joined, patches, run));
-  return AddLines(surface, patches, order, run, response);
+  return AddLines(surface, patches, chosen, run, response);
 }
 
 }  // namespace

@@ -108,7 +108,7 @@ absl::StatusOr<std::vector<Level>> Trace(const Surface& surface, const std::vect
     std::vector<double> wanted = lines[k].levels;
     if (!HasLevels(lines[k])) {
       wanted = {0.0};
-    } else if (wanted.empty()) {
+    } else if (wanted.empty() && lines[k].count > 0) {
       wanted = ChooseLevels(surface, lines[k].family, lines[k].count, zero);
     }
     for (const double level : wanted) {
@@ -190,7 +190,8 @@ absl::Status HandleTraceLines(const Call& call, const v1::TraceLinesRequest& req
         PM_ASSIGN_OR_RETURN(const Resolved resolved, Resolve(surface, job, run));
         const Vec3& zero = resolved.program_zero;
         std::vector<LineOrder> lines;
-        for (const LineOrder& line : order.lines) lines.push_back(Placed(line, zero));
+        const OccurringNormals normals = NeedsNormals(order.lines) ? NormalsOf(surface) : OccurringNormals();
+        for (const LineOrder& line : order.lines) lines.push_back(Chosen(Placed(line, zero), normals));
         PM_ASSIGN_OR_RETURN(const std::vector<Level> levels, Trace(surface, lines, order, zero, run));
         for (const Level& level : levels) {
           v1::LineSet& set = *response->add_sets();
@@ -204,6 +205,7 @@ absl::Status HandleTraceLines(const Call& call, const v1::TraceLinesRequest& req
             length += LengthOf(curve);
           }
           set.set_length_mm(length);
+          AddChosen(line, set);
         }
         AddDiagnostics(HeaderRemarks(upright.model.remarks), zero, response->mutable_diagnostics());
         AddDiagnostics(surface.network.findings, zero, response->mutable_diagnostics());

@@ -103,6 +103,41 @@ TEST_F(Lines, LevelsAreChosenAndFamiliesKeepTheirPlace) {
   EXPECT_THAT(response_.picture().data(), HasSubstr("slope 30 degrees: 1"));
 }
 
+// A panel that is bent by a tenth of a degree has as many lines as it was asked for, each with some length.
+TEST_F(Lines, FamiliesFromNormals) {
+  auto& points =
+      *request_.mutable_source()->mutable_model()->mutable_patches(0)->mutable_bezier()->mutable_points();
+  for (int k = 2; k < points.size(); k += 3) points[k] *= 1e-3;
+  request_.clear_families();
+  for (const v1::LineKind kind : {v1::LINE_KIND_HIGHLIGHT, v1::LINE_KIND_BRIGHTNESS}) {
+    v1::LineFamily& family = *request_.add_families();
+    family.set_kind(kind);
+    family.set_count(7);
+    family.set_from_normals(true);
+  }
+  grpc::Status status = Trace();
+  ASSERT_TRUE(status.ok()) << status.error_message();
+  ASSERT_EQ(response_.sets_size(), 14);
+  for (const v1::LineSet& set : response_.sets()) {
+    EXPECT_GT(set.length_mm(), 5.0) << set.family_index() << " " << set.level();
+    EXPECT_TRUE(set.has_direction());
+    EXPECT_EQ(set.has_across(), set.kind() == v1::LINE_KIND_HIGHLIGHT);
+  }
+  // The planes turn about a level direction, and the normals are nearly upright.
+  EXPECT_NEAR(response_.sets(0).direction().z_mm(), 0.0, 1e-6);
+  EXPECT_NEAR(std::abs(response_.sets(0).across().z_mm()), 1.0, 1e-6);
+  // What is given stays.
+  request_.mutable_families(0)->mutable_direction()->set_x_mm(2.0);
+  request_.mutable_families(1)->add_levels(0.5);
+  status = Trace();
+  ASSERT_TRUE(status.ok()) << status.error_message();
+  ASSERT_EQ(response_.sets_size(), 8);
+  EXPECT_DOUBLE_EQ(response_.sets(0).direction().x_mm(), 1.0);
+  EXPECT_DOUBLE_EQ(response_.sets(7).level(), 0.5);
+  request_.mutable_families(0)->set_kind(v1::LINE_KIND_CONTOUR);
+  EXPECT_THAT(Trace(), RpcStatusIs(StatusCode::INVALID_ARGUMENT, HasSubstr("families[0].from_normals")));
+}
+
 TEST_F(Lines, FlowRunsUpTheBowl) {
   request_.mutable_families(0)->set_kind(v1::LINE_KIND_FLOW);
   request_.mutable_families(0)->set_spacing_mm(2);

@@ -145,6 +145,29 @@ TEST(Preview, LinesLieOnTheChangedFacesAlone) {
   EXPECT_GT(points, 10);
 }
 
+// A family that is chosen from the normals is that of the network before the edits, whatever these change.
+TEST(Preview, FamiliesFromNormalsStay) {
+  const Embedded embedded;
+  std::vector<v1::LineSet> first;
+  for (const double height : {0.1, 0.5}) {
+    const v1::PreviewResponse shown = Show(
+        embedded,
+        RequestOf(Sheet(), fmt::format(R"({{"edits": [{{"move_vertex": {{"vertex": 14, "by": [0, 0, {}]}}}}],
+                       "families": [{{"kind": "LINE_KIND_HIGHLIGHT", "count": 5, "from_normals": true}}]}})",
+                                       height)));
+    ASSERT_EQ(shown.sets_size(), 5);
+    for (int k = 0; k < 5; ++k) {
+      if (height == 0.1) {
+        first.push_back(shown.sets(k));
+        continue;
+      }
+      EXPECT_EQ(shown.sets(k).level(), first[static_cast<std::size_t>(k)].level());
+      EXPECT_TRUE(MessageDifferencer::Equals(shown.sets(k).direction(),
+                                             first[static_cast<std::size_t>(k)].direction()));
+    }
+  }
+}
+
 TEST(Preview, PlacesAreInMillimetres) {
   const Embedded embedded;
   const v1::PreviewResponse inch =
