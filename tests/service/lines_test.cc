@@ -103,7 +103,7 @@ TEST_F(Lines, LevelsAreChosenAndFamiliesKeepTheirPlace) {
   EXPECT_THAT(response_.picture().data(), HasSubstr("slope 30 degrees: 1"));
 }
 
-// A panel that is bent by a tenth of a degree has as many lines as it was asked for, each with some length.
+// A panel that is bent by a tenth of a degree has as many lines as requested, each with some length.
 TEST_F(Lines, FamiliesFromNormals) {
   auto& points =
       *request_.mutable_source()->mutable_model()->mutable_patches(0)->mutable_bezier()->mutable_points();
