@@ -130,7 +130,7 @@ TEST(DaemonLimits, RequestsOfHealthAndReflectionAreCounted) {
 std::string ManyPoints() {
   v1::EvaluateSurfaceRequest request;
   *request.mutable_source()->mutable_model() = testing::Bump();
-  for (int k = 0; k < 20'000; ++k) {
+  for (int k = 0; k < 14'000; ++k) {
     request.add_patch_index(0);
     for (const int step : {7, 11}) request.add_uv((k * step % 1009 + 0.5) / 1009.0);
   }
