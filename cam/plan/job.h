@@ -9,7 +9,6 @@
 
 #include "cam/limits/containment.h"
 #include "cam/limits/stock_depth.h"
-#include "cam/limits/stock_solid.h"
 #include "cam/link/link_paths.h"
 #include "cam/path/parallel/line_frame.h"
 #include "cam/plan/wall_sides.h"
@@ -68,8 +67,6 @@ struct Setup {
   // area that the surface covers as seen from above; else the body is whole.
   bool allowance_stated = false;
   std::variant<NoStockBody, BlockStock, OutlineStock, CylinderStock, ModelStock> stock_body = NoStockBody{};
-  // What an earlier Resolve of this set-up over the same surface made of the body. null: Resolve makes it.
-  std::shared_ptr<const StockSolid> made_stock = nullptr;
   std::vector<ObstacleOutline> obstacles;
   // ChooseUp (cam/plan/choose_up.h) turns the placement once the model is known: the axis that shows most
   // points up, or the outer normal of a plane face. At most one is set.

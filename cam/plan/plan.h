@@ -43,6 +43,9 @@ absl::StatusOr<std::vector<PlanPart>> VerifiedParts(const Surface& surface, cons
 
 // surface -> regions -> passes -> links -> program text -> verification. No program unless verified.
 absl::StatusOr<JobResult> RunJob(const Surface& surface, const Job& job, const RunContext& run);
+// The same where `resolved` is Resolve(surface, job) already.
+absl::StatusOr<JobResult> RunJob(const Surface& surface, const Job& job, const Resolved& resolved,
+                                 const RunContext& run);
 
 // The most moves that the text of such a motion is read as, its arcs as chords.
 std::size_t MostMovesOf(const LinkResult& motion);

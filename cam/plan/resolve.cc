@@ -156,7 +156,6 @@ Ring StockOutline(const Setup& setup, const Box3& box, const Vec3& zero) {
 absl::StatusOr<std::shared_ptr<const StockSolid>> ResolveStock(const Surface& surface, const Setup& setup,
                                                                const Resolved& r, const RunContext& run) {
   if (std::holds_alternative<NoStockBody>(setup.stock_body)) return nullptr;
-  if (setup.made_stock != nullptr) return setup.made_stock;
   if (const auto* model = std::get_if<ModelStock>(&setup.stock_body)) {
     PM_ASSIGN_OR_RETURN(StockSolid solid,
                         StockSolid::OfModel(*model->surface, r.stock_top_z,
@@ -172,9 +171,9 @@ absl::StatusOr<std::shared_ptr<const StockSolid>> ResolveStock(const Surface& su
   return std::make_shared<const StockSolid>(std::move(solid));
 }
 
-}  // namespace
-
-absl::StatusOr<Resolved> Resolve(const Surface& surface, const Job& job, const RunContext& run) {
+// `stock`: as an earlier Resolve made it; null: it is made.
+absl::StatusOr<Resolved> ResolveWith(const Surface& surface, const Job& job,
+                                     std::shared_ptr<const StockSolid> stock, const RunContext& run) {
   Resolved r;
   r.box = TightBox(surface);
   PM_RETURN_IF_ERROR(run.Check());
@@ -216,7 +215,10 @@ absl::StatusOr<Resolved> Resolve(const Surface& surface, const Job& job, const R
                       fmt::format("= {:.6g}; must be at least the model's top, {:.6g}",
                                   r.stock_top_z - zero_z, top - zero_z));
   }
-  PM_ASSIGN_OR_RETURN(r.stock, ResolveStock(surface, job.setup, r, run));
+  r.stock = std::move(stock);
+  if (r.stock == nullptr) {
+    PM_ASSIGN_OR_RETURN(r.stock, ResolveStock(surface, job.setup, r, run));
+  }
   r.depth_limit = {std::max(job.setup.allowance.walls, op.accept_depth),
                    std::max(job.setup.allowance.floors, op.accept_depth)};
   r.floor_z = op.floor_z ? *op.floor_z + zero_z : r.box.min.z();
@@ -233,6 +235,17 @@ absl::StatusOr<Resolved> Resolve(const Surface& surface, const Job& job, const R
                                   r.clearance_z - zero_z, highest - zero_z));
   }
   return r;
+}
+
+}  // namespace
+
+absl::StatusOr<Resolved> Resolve(const Surface& surface, const Job& job, const RunContext& run) {
+  return ResolveWith(surface, job, nullptr, run);
+}
+
+absl::StatusOr<Resolved> Resolve(const Surface& surface, const Job& job,
+                                 std::shared_ptr<const StockSolid> stock, const RunContext& run) {
+  return ResolveWith(surface, job, std::move(stock), run);
 }
 
 namespace {

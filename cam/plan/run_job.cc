@@ -346,9 +346,9 @@ std::optional<LinuxCncPlanner> PlannerOf(const Job& job, const Resolved& resolve
                          .step = TickOf(job.dialect, job.unit)};
 }
 
-absl::StatusOr<JobResult> PlanAndJudge(const Surface& surface, const Job& job, const RunContext& run) {
+absl::StatusOr<JobResult> PlanAndJudge(const Surface& surface, const Job& job, const Resolved& resolved,
+                                       const RunContext& run) {
   PM_RETURN_IF_ERROR(ValidateJob(job));
-  PM_ASSIGN_OR_RETURN(const Resolved resolved, Resolve(surface, job, run));
   JobResult result;
   JobReport& report = result.report;
   StageClock clock(report.stages);
@@ -524,8 +524,16 @@ absl::StatusOr<VerifyReport> VerifyProgramText(const Surface& surface, const Too
 }
 
 absl::StatusOr<JobResult> RunJob(const Surface& surface, const Job& job, const RunContext& run) {
+  PM_RETURN_IF_ERROR(ValidateJob(job));
   const PolledRun polled(run);
-  absl::StatusOr<JobResult> result = PlanAndJudge(surface, job, run);
+  PM_ASSIGN_OR_RETURN(const Resolved resolved, Resolve(surface, job, run));
+  return RunJob(surface, job, resolved, run);
+}
+
+absl::StatusOr<JobResult> RunJob(const Surface& surface, const Job& job, const Resolved& resolved,
+                                 const RunContext& run) {
+  const PolledRun polled(run);
+  absl::StatusOr<JobResult> result = PlanAndJudge(surface, job, resolved, run);
   PM_RETURN_IF_ERROR(run.Check());
   return result;
 }

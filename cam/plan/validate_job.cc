@@ -176,8 +176,8 @@ absl::Status ValidateJob(const Job& job) {
   if (!tool.holder.empty() && tool.holder_clearance < job.setup.allowance.Most()) {
     return FieldError(
         "tool.holder_clearance_mm",
-        fmt::format("= {:.6g}; must be at least setup.stock.allowance_mm = {:.6g}: so much may stand "
-                    "on the surface",
+        fmt::format("= {:.6g}; must be at least the stock allowance, {:.6g}: so much may stand on the "
+                    "surface",
                     tool.holder_clearance, job.setup.allowance.Most()));
   }
   PM_RETURN_IF_ERROR(check("scallop_mm", op.scallop, op.scallop > 0 && op.scallop < r,

@@ -101,9 +101,8 @@ absl::Status Make(PreparedJob& prepared, const Wanted& wanted, const ModelAccess
   const Surface& surface = *built;
   made->face_ids = FaceIds(surface.network.model);
   PM_ASSIGN_OR_RETURN(made->resolved, Resolve(surface, prepared.job, run));
-  prepared.job.setup.made_stock = made->resolved.stock;
   if (wanted.mesh && wanted.chord) PM_RETURN_IF_ERROR(CheckChord(surface, *wanted.chord, run));
-  PM_ASSIGN_OR_RETURN(made->result, RunJob(surface, prepared.job, run));
+  PM_ASSIGN_OR_RETURN(made->result, RunJob(surface, prepared.job, made->resolved, run));
   if (made->result.program.size() > limits::kMaxProgramBytes) {
     return LimitError("program_size_bytes", static_cast<double>(limits::kMaxProgramBytes),
                       static_cast<double>(made->result.program.size()));

@@ -209,7 +209,8 @@ absl::StatusOr<ProgramMotion> Read(const ProgramText& program) {
 struct Judging {
   const Surface& surface;
   const std::vector<Tool>& tools;
-  const Job& job;  // of any of the tools
+  const Job& job;            // of any of the tools
+  const Resolved& resolved;  // of this job
   bool with_scallop = false, with_map = false;
   const RunContext& run;
 };
@@ -218,7 +219,7 @@ struct Judging {
 absl::StatusOr<VerifyReport> JudgeTool(const Judging& by, const Tool& tool, const ProgramMotion& motion) {
   Job job = by.job;
   job.operation.tool = tool;
-  PM_ASSIGN_OR_RETURN(const Resolved resolved, Resolve(by.surface, job, by.run));
+  PM_ASSIGN_OR_RETURN(const Resolved resolved, Resolve(by.surface, job, by.resolved.stock, by.run));
   PM_ASSIGN_OR_RETURN(const std::vector<PlanPart> parts, VerifiedParts(by.surface, job, resolved, by.run));
   VerifyParams params = MakeVerifyParams(job, resolved, parts);
   params.sample_leftover = by.with_map;
@@ -323,7 +324,7 @@ absl::StatusOr<std::vector<ToolMotion>> MovesByTool(const Judging& by, const Pro
 // The triangles, with what the program leaves whether its lines with / run or not.
 absl::Status MakeMesh(const Judging& by, const Wanted& wanted, const ProgramMotion& motion,
                       ProgramText program, VerifyAnswer* answer) {
-  PM_ASSIGN_OR_RETURN(const Resolved resolved, Resolve(by.surface, by.job, by.run));
+  const Vec3& zero = by.resolved.program_zero;
   std::vector<std::vector<ToolMotion>> ways(1);
   PM_ASSIGN_OR_RETURN(ways.front(), MovesByTool(by, motion));
   if (motion.has_deletable_lines) {
@@ -337,10 +338,10 @@ absl::Status MakeMesh(const Judging& by, const Wanted& wanted, const ProgramMoti
   for (const std::vector<ToolMotion>& way : ways) {
     std::vector<BallMotion>& balls = params.ways.emplace_back();
     for (const ToolMotion& one : way)
-      balls.push_back({&one.moves, resolved.program_zero, BallRadius(*one.tool), by.job.operation.leave});
+      balls.push_back({&one.moves, zero, BallRadius(*one.tool), by.job.operation.leave});
   }
   PM_ASSIGN_OR_RETURN(const SurfaceDrawing drawing, DrawSurface(by.surface, params, by.run));
-  EmitMesh(drawing, by.surface, resolved.program_zero, [&](v1::MeshBlock block) {
+  EmitMesh(drawing, by.surface, zero, [&](v1::MeshBlock block) {
     answer->mesh.push_back(std::move(block));
     return !by.run.Cancelled();
   });
@@ -366,9 +367,8 @@ absl::Status Make(const Call& call, const v1::VerifyProgramRequest& request, con
       PlacedSurface(std::move(upright.model.model), upright.model.digest, job.setup, run, ModelsOf(call)));
   const Surface& surface = *built;
   PM_ASSIGN_OR_RETURN(const Resolved resolved, Resolve(surface, job, run));
-  job.setup.made_stock = resolved.stock;
   if (what.wanted.mesh && what.wanted.chord) PM_RETURN_IF_ERROR(CheckChord(surface, *what.wanted.chord, run));
-  const Judging by{surface, what.tools, job, request.has_scallop_mm(), request.leftover_map(), run};
+  const Judging by{surface, what.tools, job, resolved, request.has_scallop_mm(), request.leftover_map(), run};
   PM_ASSIGN_OR_RETURN(const VerifyReport verify, JudgeWays(by, motion, program));
   FillFromVerifier(verify, resolved.program_zero, request.has_scallop_mm(), report);
   report->set_outcome(Judge(*report, verify.NothingToFinish()));
@@ -439,7 +439,7 @@ void CheckHolderClearance(const v1::VerifyProgramRequest& request, double allowa
       tool.holder_clearance = std::max(tool.holder_clearance, allowance);
     if (tool.holder_clearance < allowance) {
       errors.Add(fmt::format("tools[{}].holder_clearance_mm", k),
-                 fmt::format("= {:.10g}; must be at least setup.stock.allowance_mm = {:.10g}",
+                 fmt::format("= {:.10g}; must be at least the stock allowance, {:.10g}",
                              tool.holder_clearance, allowance));
     }
   }

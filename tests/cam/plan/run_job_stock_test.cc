@@ -252,11 +252,10 @@ TEST(JobStock, TheModelIsMeasuredOnce) {
   Job job = LimitedJob();
   job.setup.stock_body = StockOf(Plane(15, 0.3));
   const Resolved first = *Resolve(surface, job, RunContext());
-  job.setup.made_stock = first.stock;
-  EXPECT_EQ(Resolve(surface, job, RunContext())->stock, first.stock);
-  const JobResult again = Mill(surface, job);
-  job.setup.made_stock = nullptr;
-  EXPECT_EQ(Mill(surface, job).program, again.program);
+  EXPECT_EQ(Resolve(surface, job, first.stock, RunContext())->stock, first.stock);
+  const auto again = RunJob(surface, job, first, RunContext());
+  ASSERT_TRUE(again.ok()) << again.status();
+  EXPECT_EQ(Mill(surface, job).program, again->program);
 }
 
 TEST(JobStock, AModelThatIsMissingIsTold) {
