@@ -126,7 +126,7 @@ class Capper {
   Vec3 OutOf(std::size_t hole, std::size_t end) const {
     return end == 0 ? Vec3(-holes_[hole].direction) : holes_[hole].direction;
   }
-  // Whether an edge of a hole's wall lies at its second end rather than at its first.
+  // Index of the hole's end that an edge of its wall is nearer to.
   std::size_t NearerEnd(const Hole& hole, const PatchEdge& edge) const {
     return (Middle(edge) - hole.mouth).dot(hole.direction) > 0.5 * hole.depth ? 1 : 0;
   }
@@ -166,10 +166,18 @@ class Capper {
             border.push_back(joint);
         }
       }
-      if (!IsCircle(hole, border)) return;
+      if (!IsCircle(hole, border) || !LiesOutside(border, mouth)) return;
       inside.insert(faces.begin(), faces.end());
       mouth.joints = std::move(border);
     }
+  }
+
+  // Whether a circle of edges lies farther out along the axis than the mouth. That around the rounded end
+  // of a tube does not.
+  bool LiesOutside(const std::vector<Joint>& circle, const Mouth& mouth) const {
+    const double out = Middle(circle.front().other).dot(mouth.out);
+    return std::all_of(mouth.joints.begin(), mouth.joints.end(),
+                       [&](const Joint& joint) { return Middle(joint.edge).dot(mouth.out) < out; });
   }
 
   bool IsCircle(const Hole& hole, const std::vector<Joint>& border) const {
@@ -362,16 +370,16 @@ void RemoveFaces(const std::set<FaceId>& removed, PatchModel& model) {
   }
 }
 
-std::string TitleOf(const Hole& hole, const PatchModel& model) {
-  return fmt::format("{} (diameter {:.6g} mm)", Title(model.faces[hole.faces.front().index()]),
-                     hole.diameter);
-}
-
 }  // namespace
 
-absl::StatusOr<CappedModel> CapHoles(PatchModel model, double diameter, const RunContext& run) {
+absl::StatusOr<CappedModel> CapHoles(PatchModel model, const CapParams& params, const RunContext& run) {
   CappedModel result{std::move(model), {}};
-  if (result.model.faces.empty()) return result;
+  if (result.model.faces.empty()) {
+    result.findings.push_back(MakeWarning(
+        "HOLES_CAPPED", "no hole is closed: the model has no faces, and holes are found by their faces"));
+    return result;
+  }
+  const double diameter = params.diameter / params.scale;
   PM_ASSIGN_OR_RETURN(PatchNetwork network, BuildNetwork(result.model, run));
   PM_ASSIGN_OR_RETURN(const Surface surface, BuildSurface(std::move(network), SurfaceParams{}, run));
   PM_ASSIGN_OR_RETURN(const std::vector<Hole> holes, FindHoles(surface, run));
@@ -386,13 +394,17 @@ absl::StatusOr<CappedModel> CapHoles(PatchModel model, double diameter, const Ru
   std::set<FaceId> removed;
   int caps = 0;
   std::vector<std::string> capped;
+  const auto title = [&](const Hole& hole) {
+    return fmt::format("{} (diameter {:.6g} mm)",
+                       Title(surface.network.model.faces[hole.faces.front().index()]),
+                       params.scale * hole.diameter);
+  };
   const auto refuse = [&](const Hole& hole, std::string_view why) {
     Where where;
     where.face_id = surface.network.model.faces[hole.faces.front().index()].id;
     where.point = hole.mouth;
     result.findings.push_back(MakeWarning(
-        "HOLE_NOT_CAPPED", fmt::format("hole {} stays open: {}", TitleOf(hole, surface.network.model), why),
-        std::move(where)));
+        "HOLE_NOT_CAPPED", fmt::format("hole {} stays open: {}", title(hole), why), std::move(where)));
   };
   for (const std::size_t k : order) {
     PM_RETURN_IF_ERROR(run.Check());
@@ -418,8 +430,8 @@ absl::StatusOr<CappedModel> CapHoles(PatchModel model, double diameter, const Ru
       continue;
     }
     if (made.size() < inside->mouths.size()) {
-      refuse(hole,
-             fmt::format("a mouth lies off its plane by more than {:.4g} mm", kMostOffPlane * hole.diameter));
+      refuse(hole, fmt::format("a mouth lies off its plane by more than {:.4g} mm",
+                               params.scale * kMostOffPlane * hole.diameter));
       continue;
     }
     if (stands_out) {
@@ -438,7 +450,7 @@ absl::StatusOr<CappedModel> CapHoles(PatchModel model, double diameter, const Ru
       result.model.faces.push_back(std::move(face));
     }
     removed.insert(inside->faces.begin(), inside->faces.end());
-    capped.push_back(TitleOf(hole, surface.network.model));
+    capped.push_back(title(hole));
   }
   RemoveFaces(removed, result.model);
   constexpr std::size_t kNamed = 5;
@@ -448,9 +460,9 @@ absl::StatusOr<CappedModel> CapHoles(PatchModel model, double diameter, const Ru
   if (capped.size() > kNamed) names += fmt::format(" and {} more", capped.size() - kNamed);
   result.findings.insert(
       result.findings.begin(),
-      MakeInfo("HOLES_CAPPED",
-               fmt::format("{} hole{} of at most {:.6g} mm closed by {} cap{}{}", capped.size(),
-                           capped.size() == 1 ? "" : "s", diameter, caps, caps == 1 ? "" : "s", names)));
+      MakeInfo("HOLES_CAPPED", fmt::format("{} hole{} of at most {:.6g} mm closed by {} cap{}{}",
+                                           capped.size(), capped.size() == 1 ? "" : "s", params.diameter,
+                                           caps, caps == 1 ? "" : "s", names)));
   return result;
 }
 

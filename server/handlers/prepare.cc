@@ -35,8 +35,8 @@ absl::StatusOr<UprightModel> MakeUpright(LoadedModel model, const Setup& setup, 
   PM_ASSIGN_OR_RETURN(ChosenUp chosen, ChooseUp(model.model, setup, run));
   for (Diagnostic& finding : chosen.findings) model.remarks.push_back(std::move(finding));
   if (chosen.setup.cap_holes) {
-    const double diameter = *chosen.setup.cap_holes / chosen.setup.placement.scale;
-    PM_ASSIGN_OR_RETURN(CappedModel capped, CapHoles(std::move(model.model), diameter, run));
+    const CapParams caps{*chosen.setup.cap_holes, chosen.setup.placement.scale};
+    PM_ASSIGN_OR_RETURN(CappedModel capped, CapHoles(std::move(model.model), caps, run));
     model.model = std::move(capped.model);
     for (Diagnostic& finding : capped.findings) model.remarks.push_back(std::move(finding));
   }

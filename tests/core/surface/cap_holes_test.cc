@@ -28,8 +28,8 @@ Surface SurfaceOf(const PatchModel& model) {
   return *std::move(surface);
 }
 
-CappedModel Capped(PatchModel model, double diameter) {
-  auto capped = CapHoles(std::move(model), diameter, RunContext());
+CappedModel Capped(PatchModel model, double diameter, double scale = 1.0) {
+  auto capped = CapHoles(std::move(model), {diameter, scale}, RunContext());
   PM_CHECK(capped.ok());
   return *std::move(capped);
 }
@@ -133,7 +133,38 @@ TEST(CapHoles, WiderHolesPinsAndModelsWithoutFacesStay) {
   PatchModel plain = part;
   plain.faces.clear();
   for (Patch& patch : plain.patches) patch.face.reset();
-  EXPECT_EQ(Capped(plain, 50.0).model.patches.size(), part.patches.size());
+  const CappedModel without = Capped(plain, 50.0);
+  EXPECT_EQ(without.model.patches.size(), part.patches.size());
+  ASSERT_EQ(without.findings.size(), 1U);
+  EXPECT_EQ(without.findings[0].severity, Severity::kWarning);
+  EXPECT_NE(without.findings[0].message.find("no faces"), std::string::npos);
+}
+
+// The diameter, and all that is said, are those of the placed model.
+TEST(CapHoles, OfAModelThatIsScaled) {
+  const PatchModel part = TurnedPart({kRim, kTop, Bore(3, 10, 0), Ring(3, 20, 0)});
+  EXPECT_NE(Capped(part, 11.9, 2.0).findings[0].message.find("0 holes of at most 11.9 mm"),
+            std::string::npos);
+  const CappedModel capped = Capped(part, 12.0, 2.0);
+  ExpectDisc(capped, kDisc);
+  EXPECT_NE(capped.findings[0].message.find("1 hole of at most 12 mm closed by 2 caps: f3 (diameter 12 mm)"),
+            std::string::npos)
+      << capped.findings[0].message;
+}
+
+// The end of a tube is rounded from its bore to its outside. The cap ends where the rounding is highest, and
+// its outer half stays.
+TEST(CapHoles, ATubeKeepsItsRoundedEnd) {
+  const TurnedFace outside = Pin(5, 0, 8), inner{Round({4, 9}, {3, 9}, {3, 8}), SurfaceKind::kTorus, 1},
+                   outer{Round({5, 8}, {5, 9}, {4, 9}), SurfaceKind::kTorus, 1};
+  const PatchModel tube = TurnedPart({outside, outer, inner, Bore(3, 8, 0), Ring(3, 5, 0)});
+  const CappedModel capped = Capped(tube, 12.0);
+  EXPECT_EQ(WarningsOf(capped), 0);
+  EXPECT_EQ(NetworkOf(capped.model).euler_characteristic, 2);
+  double highest = 0.0;
+  for (const Patch& patch : capped.model.patches)
+    highest = std::max(highest, Position(patch.shape, 1.0, 1.0).z());
+  EXPECT_NEAR(highest, 9.0, 1e-12);
 }
 
 // A sheet whose hole ends at its border has one mouth.
