@@ -9,8 +9,9 @@
 namespace patchmill {
 
 struct PatchMesh {
-  std::vector<Vec3> places;                 // on the surface
-  std::vector<Vec3> normals;                // unit, along S_u x S_v; zero where the parametrisation has none
+  std::vector<Vec3> places;  // on the surface
+  // Unit, along S_u x S_v; at a pole that of the surface beside it; zero where that is degenerate, too.
+  std::vector<Vec3> normals;
   std::vector<std::array<int, 3>> corners;  // anticlockwise about the normals
 };
 

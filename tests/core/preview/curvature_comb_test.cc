@@ -85,9 +85,8 @@ TEST(PatchMesh, TrianglesOfASphereLieOnItAndRunAnticlockwiseAboutTheNormals) {
   EXPECT_NEAR(area, 49.0 * M_PI / 2.0, 0.3);  // chords of 1/16 of a quarter turn lose some thousandths
   for (std::size_t k = 0; k < mesh.places.size(); ++k) {
     EXPECT_NEAR(mesh.places[k].norm(), 7.0, 1e-12);
-    if (!mesh.normals[k].isZero()) {
-      EXPECT_LE((mesh.normals[k] - mesh.places[k] / 7.0).norm(), 1e-11);
-    }
+    const bool pole = mesh.places[k].z() > 6.999999;
+    EXPECT_LE((mesh.normals[k] - mesh.places[k] / 7.0).norm(), pole ? 1e-5 : 1e-11);
   }
 }
 
