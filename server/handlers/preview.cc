@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <span>
 #include <utility>
 #include <vector>
 
@@ -22,6 +21,7 @@
 #include "server/handlers/prepare.h"
 #include "server/joined_base.h"
 #include "server/limits.h"
+#include "server/trace_levels.h"
 
 namespace patchmill {
 namespace {
@@ -96,51 +96,15 @@ absl::StatusOr<Surface> SurfaceOf(const JoinedNetwork& joined, const std::vector
 
 absl::Status AddLines(const Surface& surface, const std::vector<int>& patches, const PreviewOrder& order,
                       const RunContext& run, v1::PreviewResponse* response) {
-  std::vector<ZeroField> fields;
-  std::vector<double> levels;
-  std::vector<std::size_t> family_of;
-  for (std::size_t k = 0; k < order.lines.size(); ++k) {
-    const LineOrder& line = order.lines[k];
-    std::vector<double> wanted = line.levels;
-    if (!HasLevels(line)) {
-      wanted = {0.0};
-    } else if (wanted.empty() && line.count > 0) {
-      wanted = ChooseLevels(surface, line.family, line.count);
-    }
-    for (const double level : wanted) {
-      fields.push_back(FieldOf(line.family, level));
-      levels.push_back(level);
-      family_of.push_back(k);
-    }
-  }
-  ZeroMeshParams params;
-  params.min_cell = order.min_loop;
-  params.max_cell = std::max(8.0 * params.min_cell, 1.0);
-  constexpr std::size_t kAtOnce = 8;
-  double points = 0.0;
-  for (std::size_t first = 0; first < fields.size(); first += kAtOnce) {
-    const std::size_t count = std::min(kAtOnce, fields.size() - first);
-    PM_ASSIGN_OR_RETURN(
-        const std::vector<std::vector<ZeroCurve>> curves,
-        TraceZeroCurves(surface, std::span(fields).subspan(first, count), params, order.tolerance, run));
-    for (std::size_t k = 0; k < count; ++k) {
-      const LineOrder& line = order.lines[family_of[first + k]];
-      v1::LineSet& set = *response->add_sets();
-      set.set_family_index(static_cast<int>(family_of[first + k]));
-      set.set_kind(line.kind);
-      set.set_level(HasLevels(line) ? WireLevel(line, levels[first + k], Vec3::Zero()) : 0.0);
-      double length = 0.0;
-      for (const ZeroCurve& curve : curves[k]) {
-        points += static_cast<double>(curve.points.size());
-        length += LengthOf(curve);
-        v1::SurfaceLine& made = *set.add_lines() = ToProto(surface, curve, Vec3::Zero());
-        for (int& index : *made.mutable_patch_index()) index = patches[At(index)];
-      }
-      set.set_length_mm(length);
-      AddChosen(line, set);
-    }
-    if (points > limits::kMaxPolylinePoints) {
-      return LimitError("line_points", limits::kMaxPolylinePoints, points);
+  TraceParams params{{}, order.tolerance, Vec3::Zero()};
+  params.mesh.min_cell = order.min_loop;
+  params.mesh.max_cell = std::max(8.0 * order.min_loop, 1.0);
+  PM_ASSIGN_OR_RETURN(const std::vector<TracedLevel> levels, TraceLevels(surface, order.lines, params, run));
+  for (const TracedLevel& level : levels) {
+    v1::LineSet& set = *response->add_sets() = SetOf(level, order.lines[At(level.family)], params.zero);
+    for (const ZeroCurve& curve : level.curves) {
+      v1::SurfaceLine& made = *set.add_lines() = ToProto(surface, curve, params.zero);
+      for (int& index : *made.mutable_patch_index()) index = patches[At(index)];
     }
   }
   return absl::OkStatus();

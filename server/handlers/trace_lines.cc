@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <span>
 #include <utility>
 
 #include <fmt/format.h>
@@ -8,7 +7,6 @@
 #include "cam/plan/plan.h"
 #include "cam/plan/resolve.h"
 #include "core/base/status.h"
-#include "core/lines/patch_crossings.h"
 #include "server/convert/fields.h"
 #include "server/convert/lines.h"
 #include "server/convert/report.h"
@@ -17,6 +15,7 @@
 #include "server/handlers/prepare.h"
 #include "server/limits.h"
 #include "server/placed_surface.h"
+#include "server/trace_levels.h"
 
 namespace patchmill {
 namespace {
@@ -51,90 +50,6 @@ absl::StatusOr<Order> ReadOrder(const v1::TraceLinesRequest& request) {
   return order;
 }
 
-// One level of one family, with its curves.
-struct Level {
-  int family = 0;
-  double level = 0.0;
-  std::vector<ZeroCurve> curves;
-};
-
-// Counts the points of all lines and compares them with the limit of an answer.
-class PointCount {
- public:
-  absl::Status Add(const std::vector<ZeroCurve>& curves) {
-    for (const ZeroCurve& curve : curves) points_ += static_cast<double>(curve.points.size());
-    if (points_ <= limits::kMaxPolylinePoints) return absl::OkStatus();
-    return LimitError("line_points", limits::kMaxPolylinePoints, points_);
-  }
-
- private:
-  double points_ = 0.0;
-};
-
-absl::StatusOr<std::vector<ZeroCurve>> TraceFlow(const Surface& surface, FlowParams flow, double tolerance,
-                                                 const RunContext& run) {
-  constexpr double kUsual = 1.0 / 40.0, kClosest = 1e-3;  // shares of the diagonal of the box
-  const double diagonal = surface.box.Diagonal();
-  if (flow.spacing == 0.0) flow.spacing = kUsual * diagonal;
-  if (flow.spacing < kClosest * diagonal)
-    return LimitError("1/spacing_mm", 1.0 / (kClosest * diagonal), 1.0 / flow.spacing);
-  flow.tolerance = tolerance;
-  flow.max_points = static_cast<std::size_t>(limits::kMaxPolylinePoints);
-  return TraceFlowLines(surface, flow, run);
-}
-
-absl::StatusOr<std::vector<Level>> Trace(const Surface& surface, const std::vector<LineOrder>& lines,
-                                         const Order& order, const Vec3& zero, const RunContext& run) {
-  std::vector<Level> levels;
-  std::vector<ZeroField> fields;
-  std::vector<std::size_t> of_field;  // position of its level
-  PointCount points;
-  for (std::size_t k = 0; k < lines.size(); ++k) {
-    const int family = static_cast<int>(k);
-    if (lines[k].crossings) {
-      PM_ASSIGN_OR_RETURN(Crossings3d crossings,
-                          FindPatchCrossings(surface, {.tolerance = order.tolerance}, run));
-      PM_RETURN_IF_ERROR(points.Add(crossings.curves));
-      levels.push_back({family, 0.0, std::move(crossings.curves)});
-      continue;
-    }
-    if (lines[k].flow) {
-      PM_ASSIGN_OR_RETURN(std::vector<ZeroCurve> flow,
-                          TraceFlow(surface, *lines[k].flow, order.tolerance, run));
-      PM_RETURN_IF_ERROR(points.Add(flow));
-      levels.push_back({family, 0.0, std::move(flow)});
-      continue;
-    }
-    std::vector<double> wanted = lines[k].levels;
-    if (!HasLevels(lines[k])) {
-      wanted = {0.0};
-    } else if (wanted.empty() && lines[k].count > 0) {
-      wanted = ChooseLevels(surface, lines[k].family, lines[k].count, zero);
-    }
-    for (const double level : wanted) {
-      of_field.push_back(levels.size());
-      levels.push_back({family, level, {}});
-      fields.push_back(FieldOf(lines[k].family, level));
-    }
-  }
-  ZeroMeshParams params;
-  params.min_cell = order.min_loop;
-  params.max_cell = std::max(params.max_cell, params.min_cell);
-  // A few fields at a time, so that too many points are noticed before they fill the memory.
-  constexpr std::size_t kAtOnce = 8;
-  for (std::size_t first = 0; first < fields.size(); first += kAtOnce) {
-    const std::size_t count = std::min(kAtOnce, fields.size() - first);
-    PM_ASSIGN_OR_RETURN(
-        std::vector<std::vector<ZeroCurve>> curves,
-        TraceZeroCurves(surface, std::span(fields).subspan(first, count), params, order.tolerance, run));
-    for (std::size_t k = 0; k < count; ++k) {
-      PM_RETURN_IF_ERROR(points.Add(curves[k]));
-      levels[of_field[first + k]].curves = std::move(curves[k]);
-    }
-  }
-  return levels;
-}
-
 // From blue for the lowest level of a family to red for the highest.
 std::string Color(double share) {
   const auto mix = [&](int a, int b) { return a + static_cast<int>(share * (b - a)); };
@@ -142,14 +57,14 @@ std::string Color(double share) {
 }
 
 std::string Draw(const Surface& surface, const std::vector<LineOrder>& lines,
-                 const std::vector<Level>& levels, const Vec3& zero, const std::string& title) {
+                 const std::vector<TracedLevel>& levels, const Vec3& zero, const std::string& title) {
   PreviewInput input;
   input.surface = &surface;
   input.title = title;
   input.program_zero = zero;
   std::vector<int> count(lines.size(), 0), seen(lines.size(), 0);
-  for (const Level& level : levels) ++count[static_cast<std::size_t>(level.family)];
-  for (const Level& level : levels) {
+  for (const TracedLevel& level : levels) ++count[static_cast<std::size_t>(level.family)];
+  for (const TracedLevel& level : levels) {
     const auto family = static_cast<std::size_t>(level.family);
     const LineOrder& order = lines[family];
     PreviewLines drawn;
@@ -192,20 +107,14 @@ absl::Status HandleTraceLines(const Call& call, const v1::TraceLinesRequest& req
         std::vector<LineOrder> lines;
         const OccurringNormals normals = NeedsNormals(order.lines) ? NormalsOf(surface) : OccurringNormals();
         for (const LineOrder& line : order.lines) lines.push_back(Chosen(Placed(line, zero), normals));
-        PM_ASSIGN_OR_RETURN(const std::vector<Level> levels, Trace(surface, lines, order, zero, run));
-        for (const Level& level : levels) {
-          v1::LineSet& set = *response->add_sets();
+        TraceParams params{{}, order.tolerance, zero};
+        params.mesh.min_cell = order.min_loop;
+        params.mesh.max_cell = std::max(params.mesh.max_cell, order.min_loop);
+        PM_ASSIGN_OR_RETURN(const std::vector<TracedLevel> levels, TraceLevels(surface, lines, params, run));
+        for (const TracedLevel& level : levels) {
           const LineOrder& line = lines[static_cast<std::size_t>(level.family)];
-          set.set_family_index(level.family);
-          set.set_kind(line.kind);
-          set.set_level(HasLevels(line) ? WireLevel(line, level.level, zero) : 0.0);
-          double length = 0.0;
-          for (const ZeroCurve& curve : level.curves) {
-            *set.add_lines() = ToProto(surface, curve, zero);
-            length += LengthOf(curve);
-          }
-          set.set_length_mm(length);
-          AddChosen(line, set);
+          v1::LineSet& set = *response->add_sets() = SetOf(level, line, zero);
+          for (const ZeroCurve& curve : level.curves) *set.add_lines() = ToProto(surface, curve, zero);
         }
         AddDiagnostics(HeaderRemarks(upright.model.remarks), zero, response->mutable_diagnostics());
         AddDiagnostics(surface.network.findings, zero, response->mutable_diagnostics());

@@ -6,8 +6,8 @@
 #include <gtest/gtest.h>
 
 #include "server/convert/model.h"
-#include "tests/core/joining/networks.h"
 #include "tests/service/embedded.h"
+#include "tests/service/line_sheet.h"
 #include "tests/service/status_matchers.h"
 
 namespace patchmill {
@@ -28,22 +28,8 @@ grpc::Status Edit(const v1::EditModelRequest& request, v1::EditModelResponse* re
 
 // 4 x 4 vertices with lines, G2-Gregory faces, in the given unit.
 v1::EditModelRequest Sheet(v1::LengthUnit unit = v1::LENGTH_UNIT_MILLIMETER) {
-  const CurveNetwork network = testing::LineSheet(1, 4, 4);
   v1::EditModelRequest request;
-  v1::PatchModel& model = *request.mutable_source()->mutable_model();
-  model.set_length_unit(unit);
-  for (const NetworkVertex& vertex : network.vertices) {
-    auto* to = model.mutable_network()->add_vertices();
-    for (int k = 0; k < 3; ++k) to->add_position(vertex.position[k] / *MillimetersPer(unit));
-  }
-  for (const NetworkFace& face : network.faces) {
-    auto* to = model.mutable_network()->add_faces();
-    to->mutable_vertices()->Add(face.vertices.begin(), face.vertices.end());
-    to->set_scheme(v1::PATCH_SCHEME_G2_GREGORY);
-  }
-  for (const NetworkLine& line : network.lines) {
-    model.mutable_network()->add_lines()->mutable_vertices()->Add(line.vertices.begin(), line.vertices.end());
-  }
+  *request.mutable_source()->mutable_model() = testing::SheetModel(4, unit);
   return request;
 }
 
