@@ -6,7 +6,6 @@
 
 #include "core/base/status.h"
 #include "core/surface/concave_radius.h"
-#include "core/surface/face_figures.h"
 
 namespace patchmill {
 namespace {
@@ -15,11 +14,12 @@ constexpr double kSameRadius = 1e-3;  // share of it
 
 }  // namespace
 
-absl::StatusOr<std::vector<ConcaveFaces>> GroupConcaveFaces(const Surface& surface, const RunContext& run) {
+absl::StatusOr<std::vector<ConcaveFaces>> GroupConcaveFaces(const Surface& surface,
+                                                            const std::vector<FaceFigures>& figures,
+                                                            const RunContext& run) {
   const std::vector<ModelFace>& faces = surface.network.model.faces;
   if (faces.empty()) return std::vector<ConcaveFaces>();
   PM_ASSIGN_OR_RETURN(const std::vector<ConcaveSpot> spots, ConcaveRadiiOfFaces(surface, run));
-  PM_ASSIGN_OR_RETURN(const std::vector<FaceFigures> figures, MeasureFaces(surface, run));
   std::vector<FaceId> order;
   for (std::size_t f = 0; f < faces.size(); ++f) {
     if (!faces[f].skipped && std::isfinite(spots[f].radius)) order.emplace_back(f);

@@ -6,7 +6,7 @@
 #include <absl/status/statusor.h>
 
 #include "core/base/run_context.h"
-#include "core/surface/surface.h"
+#include "core/surface/face_figures.h"
 
 namespace patchmill {
 
@@ -20,6 +20,9 @@ struct ConcaveFaces {
 // Faces of one kind whose smallest radii agree to 1e-3 are one group. Ordered by kind, then by radius. The
 // air is on the side of u x v of each face, as in CAD files; the radii are estimates from above
 // (ConcaveRadiiOfFaces). Empty for a model without faces. Errors: those of `run`.
-absl::StatusOr<std::vector<ConcaveFaces>> GroupConcaveFaces(const Surface& surface, const RunContext& run);
+// `figures`: MeasureFaces(surface).
+absl::StatusOr<std::vector<ConcaveFaces>> GroupConcaveFaces(const Surface& surface,
+                                                            const std::vector<FaceFigures>& figures,
+                                                            const RunContext& run);
 
 }  // namespace patchmill

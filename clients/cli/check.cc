@@ -40,14 +40,14 @@ void Print(const CheckOptions& options, const v1::CheckModelResponse& response) 
                  response.convex_edge_length_mm(), response.concave_edge_length_mm());
     }
     const double radius = 0.5 * options.tool_diameter;
-    constexpr double kTighter = 1.0 - 1e-6;  // radii that differ by rounding are alike
+    const bool tighter =
+        std::any_of(response.diagnostics().begin(), response.diagnostics().end(),
+                    [](const v1::Diagnostic& d) { return d.code() == "CONCAVE_RADIUS_BELOW_TOOL"; });
     if (!response.has_min_concave_radius_mm()) {
       fmt::print("concave      nowhere\n");
     } else {
       fmt::print("concave      smallest radius {:.4g} mm, {} the ball's {:.4g} mm\n",
-                 response.min_concave_radius_mm(),
-                 response.min_concave_radius_mm() < kTighter * radius ? "TIGHTER than" : "not tighter than",
-                 radius);
+                 response.min_concave_radius_mm(), tighter ? "TIGHTER than" : "not tighter than", radius);
     }
   }
   PrintConcaveFaces(response, options.all_findings);

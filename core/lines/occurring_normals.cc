@@ -3,19 +3,19 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include <Eigen/Eigenvalues>
+
+#include "core/diffgeo/forms.h"
 
 namespace patchmill {
 namespace {
 
 void Add(const SurfaceJet& jet, OccurringNormals& normals) {
-  constexpr double kDegenerate = 1e-12;
-  const Vec3 cross = jet.du.cross(jet.dv);
-  const double area = cross.norm();
-  if (!(area > kDegenerate * std::max(jet.du.squaredNorm(), jet.dv.squaredNorm()))) return;
-  normals.push_back({cross / area, area});
+  if (const std::optional<Vec3> normal = UnitNormal(jet))
+    normals.push_back({*normal, jet.du.cross(jet.dv).norm()});
 }
 
 // Axes of the normals, whichever way they look: [0] the one nearest to all of them, [2] the one with the

@@ -356,6 +356,12 @@ int OrientationOf(const Piece& piece) {
   return u.x() * v.y() - u.y() * v.x() < 0.0 ? -1 : 1;
 }
 
+std::optional<Vec3> NormalOfPatch(const Piece& piece, const SurfaceJet& jet) {
+  std::optional<Vec3> normal = UnitNormal(jet);
+  if (normal && OrientationOf(piece) < 0) *normal = -*normal;
+  return normal;
+}
+
 void SetAirSides(const AirSides& sides, std::vector<Piece>& pieces) {
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     pieces[i].sides.air_side = sides.of_patch[pieces[i].patch.index()] * OrientationOf(pieces[i]);

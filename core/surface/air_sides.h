@@ -8,6 +8,7 @@
 // down.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "core/surface/surface.h"
@@ -51,6 +52,10 @@ absl::StatusOr<AirSides> FindAirSides(const Surface& surface, const RunContext& 
 
 // Orientation of the piece's parameters relative to those of its patch: 1 or -1.
 int OrientationOf(const Piece& piece);
+
+// The unit normal along S_u x S_v of the piece's patch, at a place of the piece; nothing where UnitNormal has
+// none. On faces of closed bodies in CAD files it points out of the body.
+std::optional<Vec3> NormalOfPatch(const Piece& piece, const SurfaceJet& jet);
 
 // Writes the air side and the outer side of each piece, in the piece's own parameters, and whether the piece
 // overhangs.

@@ -24,12 +24,6 @@ std::optional<Vec3> NormalSeenFromAbove(const Piece&, const SurfaceJet& jet) {
   return facing->e;
 }
 
-std::optional<Vec3> NormalOutOfBody(const Piece& piece, const SurfaceJet& jet) {
-  std::optional<Vec3> normal = UnitNormal(jet);
-  if (normal && OrientationOf(piece) < 0) *normal = -*normal;
-  return normal;
-}
-
 // How far rounding may be off in a second derivative of the piece, mm. A form of degree n has second
 // differences of n (n - 1) times its points. Points of trimmed faces are rounded to 2^-40 of the coordinates.
 double SecondDerivativeRounding(const Piece& piece, double scale) {
@@ -107,7 +101,7 @@ absl::StatusOr<ConcaveSpot> SmallestConcaveRadius(const Surface& surface, const 
 }
 
 absl::StatusOr<std::vector<ConcaveSpot>> ConcaveRadiiOfFaces(const Surface& surface, const RunContext& run) {
-  PM_ASSIGN_OR_RETURN(const std::vector<Peak> peaks, LeafPeaks(surface, NormalOutOfBody, run));
+  PM_ASSIGN_OR_RETURN(const std::vector<Peak> peaks, LeafPeaks(surface, NormalOfPatch, run));
   const PatchModel& model = surface.network.model;
   std::vector<Peak> best(model.faces.size());
   for (std::size_t i = 0; i < peaks.size(); ++i) {

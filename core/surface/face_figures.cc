@@ -34,16 +34,22 @@ void AddPiece(const Surface& surface, PieceId id, FaceFigures& figures) {
 
 }  // namespace
 
-absl::StatusOr<std::vector<FaceFigures>> MeasureFaces(const Surface& surface, const RunContext& run) {
+std::vector<std::vector<PieceId>> PiecesOfFaces(const Surface& surface) {
   const PatchModel& model = surface.network.model;
   std::vector<std::vector<PieceId>> pieces(model.faces.size());
-  std::vector<FaceFigures> figures(model.faces.size());
-  for (std::size_t k = 0; k < model.patches.size(); ++k) {
-    if (const auto& face = model.patches[k].face) ++figures[face->index()].patch_count;
-  }
   for (std::size_t k = 0; k < surface.pieces.size(); ++k) {
     const auto& face = model.patches[surface.pieces[k].patch.index()].face;
     if (face) pieces[face->index()].push_back(PieceId(k));
+  }
+  return pieces;
+}
+
+absl::StatusOr<std::vector<FaceFigures>> MeasureFaces(const Surface& surface, const RunContext& run) {
+  const PatchModel& model = surface.network.model;
+  const std::vector<std::vector<PieceId>> pieces = PiecesOfFaces(surface);
+  std::vector<FaceFigures> figures(model.faces.size());
+  for (std::size_t k = 0; k < model.patches.size(); ++k) {
+    if (const auto& face = model.patches[k].face) ++figures[face->index()].patch_count;
   }
   PM_RETURN_IF_ERROR(ParallelFor(run, "faces", figures.size(), [&](std::size_t f) {
     if (pieces[f].empty()) return;

@@ -10,6 +10,9 @@
 
 namespace patchmill {
 
+// The pieces of each face of the surface's model, ascending.
+std::vector<std::vector<PieceId>> PiecesOfFaces(const Surface& surface);
+
 struct FaceFigures {
   int patch_count = 0;
   double area = 0.0;  // mm^2, to about 1e-9 of it

@@ -16,6 +16,7 @@
 #include "core/base/union_find.h"
 #include "core/diffgeo/forms.h"
 #include "core/surface/air_sides.h"
+#include "core/surface/face_figures.h"
 
 namespace patchmill {
 namespace {
@@ -24,8 +25,8 @@ constexpr double kSameCylinder = 1e-4;         // share of the radius that place
 constexpr int kFitSteps = 4, kTurnSteps = 16;  // of a piece along each parameter
 constexpr int kTurnBins = 72;                  // of 5 degrees each
 constexpr int kEdgeSteps = 64;                 // of an edge
-constexpr double kInward =
-    0.02;  // share of the way to its centre at which a patch is looked at beside its edge
+// Share of the way from its edge to its centre at which a patch is looked at.
+constexpr double kInward = 0.02;
 
 // A cylinder that is hollow. The axis looks up; a level one looks along +X, or +Y.
 struct Cylinder {
@@ -49,20 +50,9 @@ bool SameAxis(const Cylinder& a, const Cylinder& b) {
   return a.axis.cross(b.axis).norm() < kSameCylinder && a.DistanceOfAxis(b.origin) < 2.0 * off;
 }
 
-// The pieces of each face.
-std::vector<std::vector<PieceId>> PiecesOfFaces(const Surface& surface) {
-  const PatchModel& model = surface.network.model;
-  std::vector<std::vector<PieceId>> pieces(model.faces.size());
-  for (std::size_t k = 0; k < surface.pieces.size(); ++k) {
-    const auto& face = model.patches[surface.pieces[k].patch.index()].face;
-    if (face) pieces[face->index()].push_back(PieceId(k));
-  }
-  return pieces;
-}
-
 struct Sample {
-  Vec3 p, normal;                       // the normal points out of the body
-  double concavity = 0.0, other = 0.0;  // principal curvatures towards it, 1/mm, the larger one first
+  Vec3 p, normal;          // the normal points out of the body
+  double concavity = 0.0;  // the larger principal curvature towards it, 1/mm
 };
 
 std::vector<Sample> SamplesOf(const Surface& surface, const std::vector<PieceId>& pieces) {
@@ -73,11 +63,8 @@ std::vector<Sample> SamplesOf(const Surface& surface, const std::vector<PieceId>
       for (int j = 0; j <= kFitSteps; ++j) {
         const SurfaceJet jet =
             Evaluate(piece, static_cast<double>(i) / kFitSteps, static_cast<double>(j) / kFitSteps);
-        std::optional<Vec3> normal = UnitNormal(jet);
-        if (!normal) continue;
-        if (OrientationOf(piece) < 0) *normal = -*normal;
-        const PrincipalCurvatures k = Principal(Forms(jet, *normal));
-        samples.push_back({jet.p, *normal, k.k_max, k.k_min});
+        if (const std::optional<Vec3> normal = NormalOfPatch(piece, jet))
+          samples.push_back({jet.p, *normal, Principal(Forms(jet, *normal)).k_max});
       }
     }
   }

@@ -47,11 +47,9 @@ void FillNetwork(const PatchNetwork& network, v1::CheckModelResponse* response) 
   response->set_join_tolerance_mm(network.join_tolerance);
 }
 
-absl::Status FillFaces(const v1::CheckModelRequest& request, const Surface& surface, const Vec3& zero,
-                       const RunContext& run, v1::CheckModelResponse* response) {
+void FillFaces(const v1::CheckModelRequest& request, const Surface& surface,
+               const std::vector<FaceFigures>& figures, const Vec3& zero, v1::CheckModelResponse* response) {
   const std::vector<ModelFace>& faces = surface.network.model.faces;
-  if (faces.empty() || !(request.with_faces() || request.with_faces_picture())) return absl::OkStatus();
-  PM_ASSIGN_OR_RETURN(const std::vector<FaceFigures> figures, MeasureFaces(surface, run));
   for (std::size_t f = 0; request.with_faces() && f < faces.size(); ++f) {
     v1::FaceInfo& info = *response->add_faces();
     *info.mutable_face() = ToProto(faces[f]);
@@ -62,18 +60,20 @@ absl::Status FillFaces(const v1::CheckModelRequest& request, const Surface& surf
     info.set_max_tilt_deg(Degrees(figures[f].tilt_max));
     *info.mutable_box() = ToProto(figures[f].box, zero);
   }
-  if (!request.with_faces_picture()) return absl::OkStatus();
+  if (!request.with_faces_picture()) return;
   v1::ArtifactChunk& picture = *response->mutable_picture();
   picture.set_name("faces.svg");
   picture.set_media_type("image/svg+xml");
   picture.set_data(DrawFaces(surface, figures, fmt::format("{} faces", faces.size())));
-  return absl::OkStatus();
 }
 
-absl::Status FillFeatures(const Surface& surface, const Vec3& zero, const RunContext& run,
-                          v1::CheckModelResponse* response) {
+absl::Status FillFeatures(const v1::CheckModelRequest& request, const Surface& surface, const Vec3& zero,
+                          const RunContext& run, v1::CheckModelResponse* response) {
   const PatchModel& model = surface.network.model;
-  PM_ASSIGN_OR_RETURN(const std::vector<ConcaveFaces> concave, GroupConcaveFaces(surface, run));
+  if (model.faces.empty()) return absl::OkStatus();
+  PM_ASSIGN_OR_RETURN(const std::vector<FaceFigures> figures, MeasureFaces(surface, run));
+  FillFaces(request, surface, figures, zero, response);
+  PM_ASSIGN_OR_RETURN(const std::vector<ConcaveFaces> concave, GroupConcaveFaces(surface, figures, run));
   for (const ConcaveFaces& group : concave) *response->add_concave_faces() = ToProto(group, model);
   PM_ASSIGN_OR_RETURN(const std::vector<Hole> holes, FindHoles(surface, run));
   for (const Hole& hole : holes) *response->add_holes() = ToProto(hole, model, zero);
@@ -160,8 +160,7 @@ absl::Status HandleCheckModel(const Call& call, const v1::CheckModelRequest& req
         FillNetwork(surface.network, response);
         if (steps > 0) AddJoints(continuity, response->mutable_joints());
         PM_RETURN_IF_ERROR(FillUpDirections(surface, job.setup.placement, run, response));
-        PM_RETURN_IF_ERROR(FillFeatures(surface, resolved.program_zero, run, response));
-        PM_RETURN_IF_ERROR(FillFaces(request, surface, resolved.program_zero, run, response));
+        PM_RETURN_IF_ERROR(FillFeatures(request, surface, resolved.program_zero, run, response));
         return absl::OkStatus();
       });
 }

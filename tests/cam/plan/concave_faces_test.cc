@@ -15,7 +15,9 @@ std::vector<ConcaveFaces> Groups(PatchModel model) {
   PM_CHECK(network.ok());
   auto surface = BuildSurface(*std::move(network), SurfaceParams{}, RunContext());
   PM_CHECK(surface.ok());
-  auto groups = GroupConcaveFaces(*surface, RunContext());
+  const auto figures = MeasureFaces(*surface, RunContext());
+  PM_CHECK(figures.ok());
+  auto groups = GroupConcaveFaces(*surface, *figures, RunContext());
   PM_CHECK(groups.ok());
   return *std::move(groups);
 }
