@@ -1,4 +1,4 @@
-// How deep stock stands on walls and on floors.
+// The stock allowance, which may differ between walls and floors.
 #pragma once
 
 #include <algorithm>
@@ -23,7 +23,7 @@ struct StockDepth {
   // By how much floors have more. A ball is clear of the stock on the part if the ball with a radius larger
   // by `walls` is clear of the part, lowered by this. Where walls have more this is more than is needed.
   double Rise() const { return std::max(0.0, floors - walls); }
-  // Where the normal rises by `up` (its z, any sign).
+  // The depth where the unit normal has the z component `up`, of either sign.
   double Along(double up) const {
     const double steep = std::sqrt(std::max(0.0, 1.0 - up * up));
     return floors >= walls ? walls + (floors - walls) * std::min(1.0, std::abs(up))

@@ -173,7 +173,7 @@ double StockSolid::Distance(const Vec3& c) const {
 double StockSolid::DepthAt(const Vec3& c, const StockDepth& depth) const {
   constexpr double kRise = 1e-3;  // mm
   if (depth.IsOne()) return depth.walls;
-  // How fast the distance grows with the height is the height of the normal at the nearest side.
+  // The distance grows along z by the z component of the normal at the nearest side.
   const double up = (Distance(c + Vec3(0, 0, kRise)) - Distance(c)) / kRise;
   return depth.Along(std::clamp(up, 0.0, 1.0));
 }

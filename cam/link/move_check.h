@@ -16,9 +16,8 @@ class MoveCheck {
   const Locator& stock_locator() const { return stock_locator_; }
   const LinkParams& params() const { return params_; }
   double clearance_center_z() const { return params_.clearance_z + params_.radius; }
-  double stock_depth() const {
-    return params_.allowance.Most() + params_.approach_gap;
-  }  // mm, along the normal
+  // Mm, along the normal.
+  double stock_depth() const { return params_.allowance.Most() + params_.approach_gap; }
 
   // A feed move of kind `kind` to `to`. It runs at plunge feed if it descends steeper than plunge_angle.
   Move Feed(MoveKind kind, const Vec3& from, const Vec3& to) const;

@@ -19,7 +19,7 @@ struct LeftoverParams {
   double most = kInfinity;             // mm: no larger leftover is reported, even if nothing is cut at all
 };
 
-// How a point counts for the finish. kUnderside means that the outer side of a closed body looks down
+// The class of a point in the finish. kUnderside means that the outer side of a closed body looks down
 // there, and that the tool does not reach the place. kUnwanted means outside a contact boundary or outside
 // the part. Patches that are not selected have no root cells.
 enum class FinishClass {

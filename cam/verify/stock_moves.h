@@ -21,9 +21,8 @@ struct DeepCuts {
 
 // The ball cuts as deep as its deepest point lies below the nearest side or the top of the solid. Depths
 // are known to the accuracy of the solid, which counts in favour of the move. The limit is that of the side
-// which the ball cuts. `feeds` are moves of the
-// centre of a ball with this radius (mm). The result is meaningless once `run` is cancelled. Cost: some
-// distances for each move.
+// which the ball cuts. `feeds` are moves of the centre of a ball with this radius (mm). The result is
+// meaningless once `run` is cancelled. Cost: some distances for each move.
 DeepCuts FindDeepCuts(const StockSolid& stock, const std::vector<PathSegment>& feeds, double radius,
                       const StockDepth& limit, const RunContext& run);
 

@@ -427,7 +427,7 @@ class Verifier {
     p.certainty = params_.certainty;
     p.limit = 0.0;
     const double clear_z = params_.stock_top_z + ball_ - kRapidSlack;
-    // What floors have more counts as tool below the ball.
+    // The ball is lowered by the rest that floors have more, as StockDepth::Rise says.
     const double rise = params_.allowance.Rise();
     const Vec3 lower = offset_ - Vec3(0, 0, rise);
     const SegmentTree tree(CollectMoves(motion_, MotionSet::kRapid, lower, clear_z - rise), Metric::kSwept,

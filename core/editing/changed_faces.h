@@ -1,4 +1,4 @@
-// Which faces of a network edits have changed.
+// Finds the faces of a network that edits have changed.
 #pragma once
 
 #include <vector>

@@ -129,7 +129,7 @@ struct EditedNetwork {
 // since it was last joined.
 absl::StatusOr<EditedNetwork> EditNetwork(CurveNetwork network, const std::vector<NetworkEdit>& edits,
                                           const RunContext& run = {});
-// The same for a network that is joined already: `joined` is the result of JoinNetwork(network).
+// Edits a network that is joined already: `joined` is the result of JoinNetwork(network).
 absl::StatusOr<EditedNetwork> EditNetwork(CurveNetwork network, const JoinedNetwork& joined,
                                           const std::vector<NetworkEdit>& edits, const RunContext& run);
 

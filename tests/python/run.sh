@@ -14,7 +14,7 @@ python=/usr/bin/python3  # Debian's: its packages are the only ones that the whe
 cd "$folder/source"
 "$python" -m mypy --cache-dir "$folder/mypy"
 "$python" -m flake8 src
-"$python" -m flake8 --config .flake8 "$here" "$here/../../clients/python"/*.py "$here/../../docs/front_end.py" \
+"$python" -m flake8 --config .flake8 "$here" "$here/../../clients/python"/*.py "$here/../../docs/front_end.py" "$here/../cad"/*.py \
   "$here/../../clients/freecad" "$here/../freecad"
 
 "$python" -m venv --system-site-packages "$folder/venv"

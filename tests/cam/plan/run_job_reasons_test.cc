@@ -96,9 +96,8 @@ TEST(Reasons, FloorBesideATallWallIsConcave) {
   EXPECT_NEAR(area[kConcave], strip + walls, 0.01 * (strip + walls));
 }
 
-// The inner side of a shell thinner than the ball: what is in the ball's way there is the outer side, but
-// no ball, however small, gets there from above. What looks down on a closed block counts nowhere. Without
-// one wall the block is a sheet, and nothing of it is left out of the areas.
+// What looks down on a closed block counts nowhere. Without one wall the block is a sheet, and nothing of it
+// is left out of the areas.
 TEST(Reasons, TheUndersideOfAClosedBlockDoesNotCount) {
   const double x = 30, y = 20, z = 12;
   const Job job = BallJob(3.0, /*deep=*/false);
@@ -122,6 +121,8 @@ TEST(Reasons, TheUndersideOfAClosedBlockDoesNotCount) {
   EXPECT_GT(sheet.total_area, 2 * plan);
 }
 
+// The inner side of a shell thinner than the ball: what is in the ball's way there is the outer side, but no
+// ball, however small, gets there from above.
 TEST(Reasons, TheUndersideOfAThinShellIsUndercut) {
   const PatchModel model =
       Join({Sphere(Vec3::Zero(), 12.0, Half::kUpper), Sphere(Vec3::Zero(), 11.0, Half::kUpper)});
