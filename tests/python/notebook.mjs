@@ -1,14 +1,13 @@
 // notebook.mjs FILE.html: opens a document with the page in a frame, as a notebook has it, in Chromium without a screen, and
 // prints what the page shows.
 import { pathToFileURL } from "node:url";
-import { openBrowser } from "../../clients/viewer/test/browser.mjs";
+import { hearComplaints, openBrowser } from "../../clients/viewer/test/browser.mjs";
 
 const url = pathToFileURL(process.argv[2]).href;
 const browser = await openBrowser();
 const page = await browser.newPage({ viewport: { width: 1280, height: 900 } });
 const complaints = [];
-page.on("console", (m) => complaints.push(m.text()));
-page.on("pageerror", (e) => complaints.push(e.message));
+hearComplaints(page, (text) => complaints.push(text));
 page.on("request", (r) => {
   if (r.url() !== url && !/^(data|about):/.test(r.url())) complaints.push(`request: ${r.url()}`);
 });

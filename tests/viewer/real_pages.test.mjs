@@ -6,7 +6,7 @@ import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
 import { pathToFileURL } from "node:url";
-import { openBrowser } from "../../clients/viewer/test/browser.mjs";
+import { hearComplaints, openBrowser } from "../../clients/viewer/test/browser.mjs";
 
 const patchmill = join(process.env.PATCHMILL_BIN, "patchmill");
 const folder = mkdtempSync(join(tmpdir(), "patchmill-pages-"));
@@ -34,8 +34,7 @@ function run(args, status = 0) {
 // Opens a page; it must want nothing from elsewhere and complain about nothing.
 async function open(file, complaints) {
   const page = await browser.newPage({ viewport: { width: 1280, height: 720 } });
-  page.on("console", (m) => complaints.push(m.text()));
-  page.on("pageerror", (e) => complaints.push(e.message));
+  hearComplaints(page, (text) => complaints.push(text));
   page.on("request", (r) => {
     // Large scenes are unpacked in a worker, which is a text of the page itself.
     if (r.url() !== pathToFileURL(file).href && !/^(data:|blob:null\/)/.test(r.url())) complaints.push(`request: ${r.url()}`);

@@ -1,5 +1,6 @@
 // The page in Debian's Chromium: it opens without a request, and every control does what it says.
 import assert from "node:assert/strict";
+import { EventEmitter } from "node:events";
 import { mkdtemp, readFile, rm, writeFile } from "node:fs/promises";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
@@ -8,7 +9,7 @@ import { pathToFileURL } from "node:url";
 import { gzipSync } from "node:zlib";
 import { buildPage } from "../build.mjs";
 import { fillPage, gougeAt, height, hill, leftoverAt, makePage, makeScene, pack, slopeAt } from "../make_scene.mjs";
-import { openBrowser } from "./browser.mjs";
+import { hearComplaints, openBrowser } from "./browser.mjs";
 
 const scene = makeScene({ segments: 3000, grid: 60 });
 const { buffers } = scene;
@@ -24,8 +25,7 @@ async function open(name, pieces, options = {}, context = browser) {
   await writeFile(file, pieces);
   const opened = await context.newPage({ viewport: { width: 1280, height: 720 }, ...options });
   complaints = [];
-  opened.on("console", (m) => complaints.push(`${m.type()}: ${m.text()}`));
-  opened.on("pageerror", (e) => complaints.push(`error: ${e.message}`));
+  hearComplaints(opened, (text) => complaints.push(text));
   opened.on("request", (r) => {
     if (r.url() !== pathToFileURL(file).href && !r.url().startsWith("data:")) complaints.push(`request: ${r.url()}`);
   });
@@ -67,6 +67,19 @@ test("the page is one file that is built the same each time", async () => {
   assert.ok(template.length < 1e6);
   for (const marker of ["@PATCHMILL_SCENE@", "@PATCHMILL_DATA@"]) assert.equal(template.split(marker).length, 2);
   assert.match(template, /default-src 'none'/);
+});
+
+test("an error, a warning and a line of the console are complaints, the renderer's remark on its speed is none", () => {
+  const shown = new EventEmitter();
+  const heard = [];
+  hearComplaints(shown, (text) => heard.push(text));
+  const say = (type, text) => shown.emit("console", { type: () => type, text: () => text });
+  const driver = "[.WebGL-0x52c001d1400]GL Driver Message (OpenGL, ";
+  say("warning", `${driver}Performance, GL_CLOSE_PATH_NV, High): GPU stall due to ReadPixels`);
+  say("warning", `${driver}Error, GL_INVALID_OPERATION, High): no program`);
+  say("log", "GPU stall");
+  shown.emit("pageerror", new Error("no scene"));
+  assert.deepEqual(heard, [`warning: ${driver}Error, GL_INVALID_OPERATION, High): no program`, "log: GPU stall", "error: no scene"]);
 });
 
 test("it opens without a request or a complaint, and draws", async () => {
