@@ -16,11 +16,22 @@ constexpr double kDetour = 3.0;
 constexpr double kShortDetour = 1.5;
 // How far off a wall a link between two places at the wall may lead, in parts of the distance in plan.
 constexpr std::array<double, 4> kBulges = {0.0625, 0.125, 0.25, 0.5};
+// mm: an end of a link that is this little below the surface along which the link leads counts as on it.
+constexpr double kOnSurface = 1e-4;
 // In approach gaps: how far a link above the stock may come below the gap.
 constexpr double kGapTolerance = 0.2;
 
 void AddRapid(const Vec3& to, std::vector<Move>& moves) {
   moves.push_back({.kind = MoveKind::kRapid, .to = to});
+}
+
+// The places between a and b of a way along a surface of ball centres, whose first place is over or under
+// a, and whose last is over or under b. These two are left out where a or b is no lower: the way from a
+// itself to the next place is no lower, and it does not begin with a step down.
+std::span<const CutterPoint> PlacesBetween(const Vec3& a, const Vec3& b, std::span<const CutterPoint> way) {
+  if (way.size() > 1 && a.z() >= way.front().center.z() - kOnSurface) way = way.subspan(1);
+  if (way.size() > 1 && b.z() >= way.back().center.z() - kOnSurface) way = way.first(way.size() - 1);
+  return way;
 }
 
 LeadFigure FigureOf(const Lead& lead, bool in, const LinkParams& params) {
@@ -54,7 +65,7 @@ std::optional<LinkMaker::Way> LinkMaker::AlongSurface(const Vec3& a, const Vec3&
     way.moves.push_back(check_.Feed(MoveKind::kLink, at, to));
     at = to;
   };
-  for (const CutterPoint& p : points) go(p.center);
+  for (const CutterPoint& p : PlacesBetween(a, b, points)) go(p.center);
   go(b);
   if (!allowed || way.length > kDetour * (b - a).norm() + 2.0 * params_.radius) return std::nullopt;
   return way;
@@ -192,8 +203,10 @@ std::optional<std::vector<Move>> LinkMaker::AboveStock(const Vec3& a, const Vec3
         (Xy(points.back().center) - Xy(b)).norm() > 1e-6) {
       return std::nullopt;
     }
-    for (const CutterPoint& point : points) {
-      if (!go(point.center + Lift(Vec2::Zero(), params_.allowance.Rise()))) return std::nullopt;
+    const double rise = params_.allowance.Rise();
+    for (const CutterPoint& point :
+         PlacesBetween(a - Lift(Vec2::Zero(), rise), b - Lift(Vec2::Zero(), rise), points)) {
+      if (!go(point.center + Lift(Vec2::Zero(), rise))) return std::nullopt;
     }
   }
   if (!go(b) || TimeOf(a, moves) > longest) return std::nullopt;

@@ -9,6 +9,7 @@
 #include "cam/link/link_moves.h"
 #include "cam/link/order_passes.h"
 #include "cam/link/surface_heights.h"
+#include "cam/link/turn_passes.h"
 #include "cam/toolpath/motion_time.h"
 #include "core/base/status.h"
 
@@ -84,6 +85,7 @@ absl::StatusOr<LinkResult> LinkPaths(const Locator& locator, const RegionMap& re
   const Locator stock_locator(locator.surface(), clear);
   const LinkMaker maker(locator, stock_locator, params, run);
   PM_ASSIGN_OR_RETURN(result.passes, InsertPasses(maker, std::move(result.passes), params, run));
+  PM_ASSIGN_OR_RETURN(result.passes, WithPassesTurned(maker, std::move(result.passes), run));
   std::vector<Move>& moves = result.toolpath.moves;
 
   double saved = 0.0;  // mm

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "cam/link/link_moves.h"
+#include "cam/link/turn_passes.h"
 #include "cam/location/limits/operation_limits.h"
 #include "tests/support/shapes.h"
 
@@ -185,6 +186,49 @@ TEST(LinkPaths, ShortPassesAreCutOnTheWay) {
   EXPECT_GE(at({17, 0}), 10u);
   EXPECT_GE(at({-18.5, 19}), 10u);
   EXPECT_LE(result->stats.retract_count, 3);
+}
+
+// A line's end that lies apart, as where the part between the two is cut by others: cut outwards the tool
+// would run back over all of it.
+TEST(LinkPaths, PassesAreTurnedRoundInsteadOfRunBackOver) {
+  const Surface surface = Build(testing::Plane(20));
+  const Locator locator(surface, kRadius);
+  LinkParams params = Params();
+  const Locator stock(surface, kRadius + params.allowance.walls + params.approach_gap);
+  const RunContext run;
+  const LinkMaker maker(locator, stock, params, run);
+  const auto cost = [&](const std::vector<CutterPath>& passes) {
+    double sum = 0.0;
+    for (std::size_t i = 1; i < passes.size(); ++i) {
+      const PassEnd end = PassEnd::End(passes[i - 1]);
+      sum += CostOf(maker, end, LinkTo(maker, end, passes[i]));
+    }
+    return sum;
+  };
+  const std::vector<CutterPath> outwards = {Line(locator, 0, {-15, 0}, {5, 0}),
+                                            Line(locator, 1, {4, 0.5}, {9, 0.5}),
+                                            Line(locator, 1, {3.8, 0.5}, {-15, 0.5})};
+  const auto turned = WithPassesTurned(maker, outwards, run);
+  ASSERT_TRUE(turned.ok()) << turned.status();
+  ASSERT_EQ(turned->size(), 3u);
+  EXPECT_EQ((*turned)[1].points.front().center, outwards[1].points.back().center);
+  EXPECT_EQ((*turned)[1].points.back().center, outwards[1].points.front().center);
+  EXPECT_EQ((*turned)[0].points.front().center, outwards[0].points.front().center);
+  EXPECT_EQ((*turned)[2].points.front().center, outwards[2].points.front().center);
+  EXPECT_LT(cost(*turned), cost(outwards));
+
+  const auto stays = [&](std::vector<CutterPath> passes) {
+    const Vec3 start = passes[1].points.front().center;
+    const auto result = WithPassesTurned(maker, std::move(passes), run);
+    return result.ok() && (*result)[1].points.front().center == start;
+  };
+  EXPECT_TRUE(stays(*turned));
+  std::vector<CutterPath> passes = outwards;
+  passes[1].traversal = Traversal::kOneWay;
+  EXPECT_TRUE(stays(passes));
+  passes = outwards;
+  passes[1].kind = PassKind::kContour;  // its direction decides between climb and conventional
+  EXPECT_TRUE(stays(passes));
 }
 
 TEST(LinkPaths, ContoursAreEnteredFromBesideTheWall) {
@@ -381,6 +425,12 @@ TEST(LinkPaths, StaysCloseAboveTheStockWhereARetractCostsMore) {
     EXPECT_EQ(moves[i].feed, params.feed) << "in air, however steep";
   }
   EXPECT_TRUE(crosses);
+  // The way up and the way down begin and end without a step back.
+  for (std::size_t i = 2; i < moves.size(); ++i) {
+    if (moves[i].kind != MoveKind::kLink || moves[i - 1].kind == MoveKind::kRapid) continue;
+    const Vec3 before = moves[i - 1].to - moves[i - 2].to, after = moves[i].to - moves[i - 1].to;
+    EXPECT_GT(before.dot(after), -0.5 * before.norm() * after.norm()) << "move " << i;
+  }
   // Where nobody has stated the stock, nothing goes low over it.
   params.low_rapids = false;
   const auto high = LinkPaths(locator, {}, paths, params, RunContext{});
