@@ -15,6 +15,7 @@ namespace {
 
 constexpr double kSameCoordinate = 1e-8;
 constexpr int kSamplesPerSpan = 16;
+constexpr double kShortSide = 1e-5;  // mm: a side that is shorter may have no edge in the file
 
 Vec2 HintAt(const std::vector<double>& at, const std::vector<Vec2>& places, double t) {
   const auto after = std::upper_bound(at.begin() + 1, at.end() - 1, t);
@@ -30,7 +31,8 @@ Vec2 SlopeAt(const CarrierGrid& grid, const SpannedCurve& curve, const Vec2& pla
   Eigen::Matrix2d g;
   const double uu = jet.du.squaredNorm(), vv = jet.dv.squaredNorm(), uv = jet.du.dot(jet.dv);
   g << uu, uv, uv, vv;
-  g.diagonal().array() += 1e-13 * (uu + vv) + 1e-300;
+  g(0, 0) += 1e-13 * uu + 1e-20 * vv + 1e-300;
+  g(1, 1) += 1e-13 * vv + 1e-20 * uu + 1e-300;
   return g.inverse() * Vec2(d.dot(jet.du), d.dot(jet.dv));
 }
 
@@ -120,8 +122,31 @@ void FindIso(UseTrace& trace, double tolerance) {
   }
 }
 
-// Makes neighbours in the loop meet. A degenerate edge is drawn between its neighbours.
-absl::Status CloseLoop(const CarrierGrid& grid, std::vector<UseTrace>& loop, const Lines& lines) {
+// A straight side for which the file has no edge, as the end of a strip that is narrower than the file's
+// accuracy. Both ends are drawn to a grid line, or to the line that both neighbours end at, along the
+// coordinate that differs less.
+UseTrace ShortSide(UseTrace& one, UseTrace& next, const Lines& lines) {
+  Vec2 a = one.end(), b = next.begin();
+  const int axis = std::abs(a.x() - b.x()) < std::abs(a.y() - b.y()) ? 0 : 1;
+  const double both = lines.Snapped(axis, one.iso == axis    ? one.constant
+                                          : next.iso == axis ? next.constant
+                                                             : 0.5 * (a[axis] + b[axis]));
+  a[axis] = b[axis] = both;
+  (one.forward ? one.places.back() : one.places.front()) = a;
+  (next.forward ? next.places.front() : next.places.back()) = b;
+  UseTrace side;
+  side.iso = axis;
+  side.constant = both;
+  side.at = {0.0, 1.0};
+  side.places = {a, b};
+  return side;
+}
+
+// Makes neighbours in the loop meet. A degenerate edge is drawn between its neighbours, and sides are made
+// where the loop jumps over one.
+absl::StatusOr<std::vector<UseTrace>> CloseLoop(const CarrierGrid& grid, std::vector<UseTrace>& loop,
+                                                const Lines& lines) {
+  std::vector<UseTrace> sides;
   const auto count = loop.size();
   for (std::size_t k = 0; k < count; ++k) {
     UseTrace &one = loop[k], &next = loop[(k + 1) % count];
@@ -137,14 +162,19 @@ absl::Status CloseLoop(const CarrierGrid& grid, std::vector<UseTrace>& loop, con
     const double apart = (PositionAt(grid, a) - PositionAt(grid, b)).norm();
     const bool pole = one.degenerate || next.degenerate;
     const double slack = 1e-6 + 10.0 * (one.gap + next.gap) + 1e-7 * grid.size;
-    if (apart > std::max(slack, kOpenLoop) || (!pole && (a - b).cwiseAbs().maxCoeff() > 0.25)) {
+    const bool jumps = !pole && (a - b).cwiseAbs().maxCoeff() > 0.25;
+    if (jumps && apart <= std::max(slack, kShortSide)) {
+      sides.push_back(ShortSide(one, next, lines));
+      continue;
+    }
+    if (jumps || apart > std::max(slack, kOpenLoop)) {
       return absl::FailedPreconditionError(absl::StrFormat(
           "the loop is open between the edges %d and %d, by %g mm", one.edge, next.edge, apart));
     }
     (one.forward ? one.places.back() : one.places.front()) = corner;
     (next.forward ? next.places.front() : next.places.back()) = corner;
   }
-  return absl::OkStatus();
+  return sides;
 }
 
 // Finds a place between a and b at which f changes its sign, where fa = f(a) and fb = f(b). False position,
@@ -200,7 +230,9 @@ absl::StatusOr<BorderTrace> TraceBorder(const BrepFace& face, const EdgeCurveTab
         for (int axis = 0; axis < 2; ++axis) p[axis] = lines.Snapped(axis, p[axis]);
       }
     }
-    if (const absl::Status closed = CloseLoop(grid, loop, lines); !closed.ok()) return closed;
+    absl::StatusOr<std::vector<UseTrace>> sides = CloseLoop(grid, loop, lines);
+    if (!sides.ok()) return sides.status();
+    for (UseTrace& side : *sides) border.short_sides.push_back(std::move(side));
   }
   return border;
 }

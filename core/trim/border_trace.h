@@ -36,6 +36,9 @@ struct UseTrace {
 // constants closer than 1e-8 to each other or to a grid line are the same number.
 struct BorderTrace {
   std::vector<std::vector<UseTrace>> loops;
+  // Iso-parametric sides between neighbours in a loop that meet in space within 1e-5 mm, but not in grid
+  // coordinates: the file has no edge for them. `edge` and `scale` mean nothing here.
+  std::vector<UseTrace> short_sides;
   double gap = 0.0;
 };
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <numbers>
 #include <utility>
 
@@ -192,10 +193,18 @@ Vec3 PositionAt(const CarrierGrid& grid, const Vec2& at) {
   return Position(grid.carrier(cell.i, cell.j), at.x() - cell.i, at.y() - cell.j);
 }
 
-std::optional<GridFoot> FootOnGrid(const CarrierGrid& grid, const Vec3& place, const Vec2& start) {
+namespace {
+
+// Of the way to the middle of its rectangle: how far a foot is moved where it cannot move by itself.
+constexpr double kNudge = 1e-3;
+
+// FootOnGrid, where a parameter that moves the place by less than the root of `damping` of the other one
+// hardly moves.
+std::optional<GridFoot> DampedFoot(const CarrierGrid& grid, const Vec3& place, const Vec2& start,
+                                   double damping) {
   Vec2 at = start;
   GridCell cell = CellAt(grid, at);
-  int moves = 0;
+  int moves = 0, nudges = 0;
   double last_step = kInfinity, last_way = kInfinity;  // mm: by parameters, and of the place itself
   for (int round = 0; round < 60; ++round) {
     const SurfaceJet jet = JetAt(grid, cell, at);
@@ -205,12 +214,18 @@ std::optional<GridFoot> FootOnGrid(const CarrierGrid& grid, const Vec3& place, c
     h << uu - off.dot(jet.duu), uv - off.dot(jet.duv), uv - off.dot(jet.duv), vv - off.dot(jet.dvv);
     // Newton's matrix where it is definite, else that of Gauss and Newton.
     if (!(h(0, 0) > 0.0 && h(1, 1) > 0.0 && h.determinant() > 1e-3 * uu * vv)) h << uu, uv, uv, vv;
-    const double damping = 1e-13 * (uu + vv) + 1e-300;
-    h(0, 0) += damping;
-    h(1, 1) += damping;
+    h(0, 0) += 1e-13 * uu + damping * vv + 1e-300;
+    h(1, 1) += 1e-13 * vv + damping * uu + 1e-300;
     const Vec2 slope(off.dot(jet.du), off.dot(jet.dv));
     Vec2 step = h.inverse() * slope;
-    if (!step.allFinite()) return std::nullopt;
+    if (uu + vv <= 1e-24 * grid.size * grid.size || !step.allFinite()) {
+      // Neither parameter moves the place here, as in the corner of a strip between a border and the
+      // line that touches it. That holds in the corner only.
+      if (off.norm() <= 1e-12 * grid.size) return GridFoot{at, jet.p, off.norm()};
+      if (nudges++ > 2) return std::nullopt;
+      at += kNudge * (Vec2(cell.i + 0.5, cell.j + 0.5) - at);
+      continue;
+    }
     // At the border of the grid, and on the way out of it, only the other coordinate moves.
     const auto leaves = [](double x, double dx, int count) {
       return (x <= 0.0 && dx < 0.0) || (x >= count && dx > 0.0);
@@ -248,10 +263,17 @@ std::optional<GridFoot> FootOnGrid(const CarrierGrid& grid, const Vec3& place, c
     const Vec2 moved = next - at;
     const double length = std::abs(moved.x()) * jet.du.norm() + std::abs(moved.y()) * jet.dv.norm();
     const bool same_cell = to.i == cell.i && to.j == cell.j;
+    const GridCell from = cell;
     at = next;
     cell = to;
-    if (length <= 1e-15 * grid.size || (length <= 1e-11 * grid.size && length >= 0.5 * last_step) ||
-        (length <= 1e-9 * grid.size && !same_cell)) {
+    const bool at_line = !same_cell && length <= 1e-9 * grid.size;
+    if (at_line) {
+      // The next carrier may be a million times as wide: the step leads to the line between the two.
+      if (to.i != from.i) at.x() = std::max(to.i, from.i);
+      if (to.j != from.j) at.y() = std::max(to.j, from.j);
+    }
+    if (at_line || length <= 1e-15 * grid.size ||
+        (length <= 1e-11 * grid.size && length >= 0.5 * last_step)) {
       const Vec3 p = JetAt(grid, cell, at).p;
       return GridFoot{at, p, (place - p).norm()};
     }
@@ -259,12 +281,23 @@ std::optional<GridFoot> FootOnGrid(const CarrierGrid& grid, const Vec3& place, c
     last_way = (moved.x() * jet.du + moved.y() * jet.dv).norm();
   }
   // Where both parameters run in one direction, as where a side of a strip is tangent to the next one, the
-  // parameters settle slowly. The place has settled long before.
-  if (last_way <= 1e-11 * grid.size) {
+  // parameters settle slowly. The place has settled long before. On a strip as narrow as the last bits of its
+  // coordinates it moves by these bits for ever.
+  const double last_bits = 1024.0 * std::numeric_limits<double>::epsilon() * place.cwiseAbs().maxCoeff();
+  if (last_way <= 1e-11 * grid.size + last_bits) {
     const Vec3 p = JetAt(grid, cell, at).p;
     return GridFoot{at, p, (place - p).norm()};
   }
   return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<GridFoot> FootOnGrid(const CarrierGrid& grid, const Vec3& place, const Vec2& start) {
+  // A strip may be ten million times as long as it is wide. Beside a pole, where one parameter hardly
+  // counts, that parameter must rather stay.
+  if (const std::optional<GridFoot> foot = DampedFoot(grid, place, start, 1e-20)) return foot;
+  return DampedFoot(grid, place, start, 1e-13);
 }
 
 }  // namespace patchmill

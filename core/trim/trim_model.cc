@@ -144,6 +144,7 @@ CutOutcome CutOne(const TracedFace& face, const GraphsOfUses& graphs, double tol
       ++index;
     }
   }
+  for (const UseTrace& side : trace.border.short_sides) AddStraight(side, border);
   absl::StatusOr<FacePatches> cut = CutFace(trace.grid, border, 0.5 * tolerance, run);
   if (!cut.ok()) return {cut.status(), {}, 0.0, 0.0};
   outcome.nets = std::move(cut->nets);
@@ -213,6 +214,13 @@ double BorderLength(const BrepFace& face, const EdgeCurveTable& curves) {
 struct JudgedArea {
   std::optional<double> stated;  // mm^2, of the file
   double slack = 0.0;            // mm^2 by which it may differ because of the face's border
+  double border_length = 0.0;    // mm
+
+  double Width() const {
+    return stated && border_length > 0.0 ? 2.0 * std::abs(*stated) / border_length : kInfinity;
+  }
+  // Its neighbours' borders may overlap it from side to side.
+  bool IsNeedle(double border_tolerance) const { return Width() <= border_tolerance; }
 };
 
 // The faults of one trimmed face.
@@ -221,7 +229,13 @@ Diagnostics FaceFindings(const ModelFace& of, const TrimmedFace& face, const Cut
   Diagnostics findings;
   const Where where{.face_id = of.id};
   const std::string title = Title(of);
-  if (face.patch_count == 0) {
+  if (face.patch_count == 0 && judged.IsNeedle(params.border_tolerance)) {
+    findings.push_back(MakeWarning(
+        "FACE_TOO_NARROW",
+        absl::StrFormat("face %s is left out: it is %.2g mm wide, and borders may be off by %.3g mm", title,
+                        judged.Width(), params.border_tolerance),
+        where));
+  } else if (face.patch_count == 0) {
     const std::string why =
         outcome.status.ok() ? "nothing lies inside its border" : std::string(outcome.status.message());
     findings.push_back(
@@ -272,7 +286,6 @@ class Volumes {
   void Add(const BrepFace& face, const TrimmedFace& trimmed, double volume, double slack, double reach) {
     if (face.body < 0 || At(face.body) >= sums_.size()) return;
     Sum& sum = sums_[At(face.body)];
-    sum.whole = sum.whole && trimmed.patch_count > 0;
     sum.volume += volume;
     sum.slack += slack * reach / 3.0 + trimmed.area * trimmed.gap;
   }
@@ -425,14 +438,16 @@ absl::StatusOr<TrimmedModel> Join(const BrepModel& part, const EdgeCurveTable& c
       result.model.patches.push_back(std::move(patch));
     }
     // The border may be off by as much, all along.
-    const double slack =
-        1e-3 + cut[f].dropped_area + BorderLength(part.faces[f], curves) * (face.border_error + face.gap);
-    for (Diagnostic& finding : FaceFindings(named, face, cut[f], {part.faces[f].area, slack}, params)) {
+    const double length = BorderLength(part.faces[f], curves);
+    const double slack = 1e-3 + cut[f].dropped_area + length * (face.border_error + face.gap);
+    const JudgedArea judged{part.faces[f].area, slack, length};
+    for (Diagnostic& finding : FaceFindings(named, face, cut[f], judged, params)) {
       result.findings.push_back(std::move(finding));
     }
     for (Diagnostic& finding : GapFindings(named, face, largest_gap, params.border_tolerance)) {
       result.findings.push_back(std::move(finding));
     }
+    if (face.patch_count == 0 && !judged.IsNeedle(params.border_tolerance)) volumes.Lose(part.faces[f]);
     volumes.Add(part.faces[f], face, volume, slack, 0.5 * size);
     result.largest_gap = std::max(result.largest_gap, face.gap);
     result.border_error = std::max(result.border_error, face.border_error);

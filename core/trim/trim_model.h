@@ -40,11 +40,12 @@ struct TrimmedModel {
   PatchModel model;
   std::vector<TrimmedFace> faces;                // as BrepModel::faces
   double largest_gap = 0.0, border_error = 0.0;  // of all faces
-  // FACE_LOST (error): the face has no patches. FACE_AREA_DIFFERS, VOLUME_DIFFERS (error): patches and file
-  // disagree by more than 1e-4 of the area of a face or the volume of a closed body, and by more than its
-  // border may be off. BORDER_COARSE (warning): the border tolerance is not reached. GAP (warning): an edge
-  // lies farther from its surface than the border tolerance; (error): by more than 0.05 mm and 0.002 of the
-  // part's size.
+  // FACE_LOST (error): the face has no patches. FACE_TOO_NARROW (warning): it has none, and its area is
+  // at most that of a strip of half its border's length that is as wide as the border tolerance.
+  // FACE_AREA_DIFFERS, VOLUME_DIFFERS (error): patches and file disagree by more than 1e-4 of the area of
+  // a face or the volume of a closed body, and by more than its border may be off. BORDER_COARSE
+  // (warning): the border tolerance is not reached. GAP (warning): an edge lies farther from its surface
+  // than the border tolerance; (error): by more than 0.05 mm and 0.002 of the part's size.
   Diagnostics findings;
 };
 

@@ -1,5 +1,8 @@
 // `patchmill convert` to files of other systems: what goes out comes back with the same heights.
+#include <cmath>
 #include <cstring>
+#include <fstream>
+#include <string>
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -78,6 +81,53 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(Case{"examples/teapot.bpt"}, Case{"examples/two_hills.bv", 1e-6, false},
                       Case{"tests/models/sphere.bv"}, Case{"tests/models/triangle_fan.bv"},
                       Case{"examples/mouse.json", 2e-5, false}, Case{"examples/bonnet.json", 2e-5}));
+
+// The part [from, to] x [0, 30] of the parabolic cylinder z = x^2 / 40 as a patch of degrees 2 and 1.
+std::string Strip(double from, double to) {
+  std::string points;
+  const auto add = [&](double x, double z) { points += fmt::format("{0},0,{1},{0},30,{1},", x, z); };
+  add(from, from * from / 40.0);
+  add(0.5 * (from + to), from * to / 40.0);
+  add(to, to * to / 40.0);
+  points.pop_back();
+  return fmt::format(R"({{"bezier":{{"degree_u":2,"degree_v":1,"points":[{}]}}}})", points);
+}
+
+// Strips of all widths between wide ones. Readers join edges that are close to each other, and leave out
+// sides that are shorter than the accuracy of the file: no strip may get the edges of its neighbours, or
+// lose its own.
+TEST(ExportNarrow, StripsOfAllWidthsComeBack) {
+  std::string strips;
+  double x = -12.0;
+  const auto add = [&](double width) {
+    strips += (strips.empty() ? "" : ",") + Strip(x, x + width);
+    x += width;
+  };
+  for (const double width : {2e-2, 3e-3, 5e-4, 6e-5, 8e-6, 9e-7}) {
+    add(3.0);
+    add(width);
+    add(0.7 * width);
+  }
+  add(3.0);
+  // The quarter of a disc in z = 10 whose corner at (x, 0) has no direction: an arc and the radius that
+  // begins there like t^2.
+  const double r = 8.0, c = x + 2.0 * r;
+  strips += fmt::format(
+      R"(,{{"bezier":{{"degree_u":2,"degree_v":1,"points":[{0},0,10,{0},0,10,{0},{1},10,{0},0,10,{2},{1},10,{2},0,10],)"
+      R"("weights":[1,1,{3},{3},1,1]}}}})",
+      c, r, c - r, std::sqrt(0.5));
+  const TempDir out;
+  std::ofstream(out / "strips.json") << R"({"length_unit":"LENGTH_UNIT_MILLIMETER","patches":[)" << strips
+                                     << "]}";
+  ASSERT_EQ(Patchmill({"convert", out / "strips.json", out / "same.json"}).status, 0);
+  for (const char* name : {"strips.step", "strips.igs"}) {
+    ASSERT_EQ(Patchmill({"convert", out / "strips.json", out / name}).status, 0);
+    const Finished back = Patchmill({"convert", out / name, out / "back.json"});
+    ASSERT_EQ(back.status, 0) << name << ": " << back.err;
+    EXPECT_EQ(back.err.find("ERROR"), std::string::npos) << back.err;
+    ExpectSameHeights(SurfaceIn(out / "same.json"), SurfaceIn(out / "back.json"), 1e-6);
+  }
+}
 
 TEST(ExportMesh, StlHasItsTrianglesOnTheSurface) {
   const TempDir out;

@@ -1,6 +1,7 @@
 // Carriers against the surfaces' own formulas, and feet of places beside them.
 #include "core/trim/carrier_grid.h"
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <random>
@@ -107,6 +108,45 @@ TEST(CarrierGrid, FeetOnASideWithoutAParametrisation) {
       const auto foot = FootOnGrid(grid, place, {u, std::max(0.0, v - u)});
       ASSERT_TRUE(foot) << v << " " << u;
       EXPECT_LE(foot->distance, 1e-9) << v << " " << u;
+    }
+  }
+}
+
+// An arc, and a radius that begins in the same point like t^2: in the corner neither parameter moves
+// the place.
+TEST(CarrierGrid, FeetInACornerWithoutAnyDirection) {
+  BrepSpline spline;
+  const double w = std::sqrt(0.5);
+  spline.patch = {2, 1, {0, 0, 0, 1, 1, 1}, {0, 0, 1, 1}, {}, {1, 1, w, w, 1, 1}};
+  spline.patch.points = {{8, 0, 0}, {8, 0, 0}, {8, 8, 0}, {8, 0, 0}, {0, 8, 0}, {0, 0, 0}};
+  const CarrierGrid grid = CarriersOf(spline, {0, 0}, {1, 1});
+  for (const double x : {8.0, 8.0 - 1e-9, 8.0 - 1e-5, 7.9, 4.0, 0.0}) {
+    for (const double u : {0.0, 0.01, 0.3, 1.0}) {
+      const auto foot = FootOnGrid(grid, {x, 0, 0}, {u, 1.0});
+      ASSERT_TRUE(foot) << x << " " << u;
+      EXPECT_LE(foot->distance, 1e-11) << x << " " << u;
+    }
+  }
+}
+
+// A strip ten million times as long as it is wide, far from the origin: only its length counts.
+TEST(CarrierGrid, FeetOnNeedles) {
+  for (const double width : {1e-2, 1e-4, 1e-6}) {
+    BrepSpline spline;
+    spline.patch = {2, 1, {0, 0, 0, 1, 1, 1}, {0, 0, 1, 1}, {}, {}};
+    const Vec3 origin(120, -70, 90);
+    for (const double x : {0.0, 15.0, 30.0}) {
+      for (const double v : {0.0, 1.0})
+        spline.patch.points.push_back(origin + Vec3(x, v * width, x == 15.0 ? 4.0 : 0.0));
+    }
+    const CarrierGrid grid = CarriersOf(spline, {0, 0}, {1, 1});
+    for (int k = 0; k <= 20; ++k) {
+      const Vec2 at(0.05 * k, k % 3 == 0 ? 0.0 : 0.37);
+      const Vec3 place = PositionAt(grid, at);
+      const auto foot = FootOnGrid(grid, place, {std::min(1.0, at.x() + 0.02), 1.0});
+      ASSERT_TRUE(foot) << width << " " << k;
+      EXPECT_LE(foot->distance, 1e-12) << width << " " << k;
+      EXPECT_NEAR(foot->at.x(), at.x(), 1e-12) << width << " " << k;
     }
   }
 }

@@ -267,6 +267,48 @@ TEST(TrimJudges, PlantedFaultsAreFound) {
   }
 }
 
+// The strip [0, 30] x [0, width] of a sheet, whose short sides have no edge where they are shorter than the
+// file's accuracy.
+TEST(TrimSpline, StripsWhoseShortSidesHaveNoEdge) {
+  for (const double width : {2e-4, 9e-6, 4e-6}) {
+    BsplinePatch sheet{1, 1, {0, 0, 1, 1}, {0, 0, 1, 1}, {}, {}};
+    sheet.points = {{0, 0, 0}, {0, width, 0}, {30, 0, 0}, {30, width, 0}};
+    PartMaker maker;
+    const int low = maker.Edge(StraightCurve({0, 0, 0}, {30, 0, 0}));
+    const int high = maker.Edge(StraightCurve({0, width, 0}, {30, width, 0}));
+    const bool has_sides = width > 1e-5;
+    BrepLoop loop = {StraightUse(low, true, {0, 0}, {1, 0})};
+    if (has_sides)
+      loop.push_back(
+          StraightUse(maker.Edge(StraightCurve({30, 0, 0}, {30, width, 0})), true, {1, 0}, {1, 1}));
+    loop.push_back(StraightUse(high, false, {0, 1}, {1, 1}));
+    if (has_sides)
+      loop.push_back(StraightUse(maker.Edge(StraightCurve({0, width, 0}, {0, 0, 0})), true, {0, 1}, {0, 0}));
+    maker.Face(BrepSpline{sheet}, {loop}).area = 30 * width;
+    const TrimmedModel model = Trimmed(maker.part());
+    ASSERT_EQ(model.model.patches.size(), 1U) << width;
+    EXPECT_NEAR(model.faces[0].area, 30 * width, 1e-9) << width;
+    EXPECT_LE(model.border_error, 1e-9) << width;
+  }
+}
+
+// A face that cannot be trimmed is left out, and said to be, where it is narrower than borders may be off;
+// a wider one is lost.
+TEST(TrimJudges, NeedlesWithoutPatchesAreNoLoss) {
+  for (const double width : {8e-5, 3e-4}) {
+    PartMaker maker = Box();
+    BsplinePatch sheet{1, 1, {0, 0, 1, 1}, {0, 0, 1, 1}, {}, {}};
+    sheet.points = {{0, 0, 0}, {0, width, 0}, {40, 0, 0}, {40, width, 0}};
+    BrepFace& needle = maker.Face(BrepSpline{sheet},
+                                  {Rectangle(maker, {{0, 0, 0}, {40, 0, 0}, {40, width, 0}, {0, width, 0}})});
+    needle.area = 40 * width;
+    needle.loops[0][1].hint.clear();  // the file has no way of this edge on the surface
+    const bool narrow = width < 1e-4;
+    EXPECT_EQ(CodesOf(maker.part()), std::vector<std::string>{narrow ? "FACE_TOO_NARROW" : "FACE_LOST"})
+        << width;
+  }
+}
+
 // A strip of a surface of degrees 8 and 8 would have the degree 16.
 TEST(TrimSpline, DegreesTooHighForASlantedBorderLoseTheFace) {
   for (const int degree : {7, 8, 15}) {
