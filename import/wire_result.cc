@@ -91,14 +91,12 @@ v1::ImportResult ToWire(const BrepModel& part, const TrimmedModel& trimmed) {
     wire.set_kind(Name(kind));
     wire.set_face_count(counts[kind]);
   }
-  double surface_error = 0.0;
-  for (const BrepFace& face : part.faces) surface_error = std::max(surface_error, face.surface_error);
   double area = 0.0;
   for (const TrimmedFace& face : trimmed.faces) area += face.area;
   report.set_area_mm2(area);
   report.set_largest_gap_mm(trimmed.largest_gap);
   report.set_border_error_mm(trimmed.border_error);
-  report.set_surface_error_mm(surface_error);
+  report.set_surface_error_mm(trimmed.surface_error);
   AddFindings(trimmed.findings, report);
   return result;
 }

@@ -8,6 +8,7 @@
 
 #include "core/base/index.h"
 #include "core/base/status.h"
+#include "core/trim/lower_degree.h"
 #include "core/trim/strip_net.h"
 
 namespace patchmill {
@@ -33,28 +34,27 @@ HintBox BoxOfHints(const BrepFace& face) {
 }
 
 // A border that is no line of the parameters needs strips, and their degrees have a limit.
-absl::Status DegreesFit(const GridTrace& trace) {
+bool NeedsLowerDegrees(const GridTrace& trace) {
   const BernsteinNet& net = trace.grid.carriers.front().net;
-  if (LargestStripDegree(net, true) > 0) return absl::OkStatus();
+  if (LargestStripDegree(net, true) > 0 && LargestStripDegree(net, false) > 0) return false;
   for (const std::vector<UseTrace>& loop : trace.border.loops) {
-    for (const UseTrace& use : loop) {
-      if (use.iso >= 0) continue;
-      return absl::FailedPreconditionError(absl::StrFormat(
-          "the surface has the degrees %d and %d, whose sum may be at most %d where a border is no "
-          "line of the parameters",
-          net.degree_u, net.degree_v, kMaxDegree));
-    }
+    if (std::any_of(loop.begin(), loop.end(), [](const UseTrace& use) { return use.iso < 0; })) return true;
   }
-  return absl::OkStatus();
+  return false;
 }
 
 absl::StatusOr<GridTrace> TraceOnGrid(const BrepFace& face, const EdgeCurveTable& curves) {
   const HintBox box = BoxOfHints(face);
   if (!(box.low.x() <= box.high.x())) return absl::FailedPreconditionError("the face has no border");
   GridTrace trace;
+  trace.surface_error = face.surface_error;
   trace.grid = CarriersOf(face.surface, box.low, box.high);
   PM_ASSIGN_OR_RETURN(trace.border, TraceBorder(face, curves, trace.grid, kIsoTolerance));
-  PM_RETURN_IF_ERROR(DegreesFit(trace));
+  if (!NeedsLowerDegrees(trace)) return trace;
+  PM_ASSIGN_OR_RETURN(LoweredGrid lowered, WithLowerDegrees(trace.grid, kSurfaceTolerance));
+  trace.grid = std::move(lowered.grid);
+  trace.surface_error += lowered.error;
+  PM_ASSIGN_OR_RETURN(trace.border, TraceBorder(face, curves, trace.grid, kIsoTolerance));
   return trace;
 }
 

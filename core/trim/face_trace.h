@@ -18,7 +18,12 @@ namespace patchmill {
 struct GridTrace {
   CarrierGrid grid;
   BorderTrace border;
+  double surface_error = 0.0;  // mm, by how much the carriers may differ from the file's surface
 };
+
+// mm: how far the carriers may differ from a spline whose degrees are too high for strips, where the border
+// needs strips.
+inline constexpr double kSurfaceTolerance = 1e-5;
 
 struct TracedFace {
   // Why the face is lost; or the patches of a face on a plane, which needs nothing more; or the trace.

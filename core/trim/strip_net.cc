@@ -12,18 +12,6 @@
 namespace patchmill {
 namespace {
 
-BernsteinNet Transposed(const BernsteinNet& net) {
-  BernsteinNet turned = net;
-  std::swap(turned.degree_u, turned.degree_v);
-  for (int i = 0; i <= net.degree_u; ++i) {
-    for (int j = 0; j <= net.degree_v; ++j) {
-      turned.points[static_cast<std::size_t>(j * (net.degree_u + 1) + i)] =
-          net.points[static_cast<std::size_t>(i * (net.degree_v + 1) + j)];
-    }
-  }
-  return turned;
-}
-
 std::vector<double> RaisedTo(std::vector<double> c, std::size_t size) {
   while (c.size() < size) c = BernsteinElevate(c);
   return c;
@@ -74,6 +62,18 @@ BernsteinNet AlongU(const BernsteinNet& whole, const Strip& strip) {
 }
 
 }  // namespace
+
+BernsteinNet Transposed(const BernsteinNet& net) {
+  BernsteinNet turned = net;
+  std::swap(turned.degree_u, turned.degree_v);
+  for (int i = 0; i <= net.degree_u; ++i) {
+    for (int j = 0; j <= net.degree_v; ++j) {
+      turned.points[static_cast<std::size_t>(j * (net.degree_u + 1) + i)] =
+          net.points[static_cast<std::size_t>(i * (net.degree_v + 1) + j)];
+    }
+  }
+  return turned;
+}
 
 int LargestStripDegree(const BernsteinNet& carrier, bool along_u) {
   const int p = along_u ? carrier.degree_u : carrier.degree_v,

@@ -13,6 +13,9 @@ struct Strip {
   GridGraph low, high;
 };
 
+// The net with its parameters exchanged.
+BernsteinNet Transposed(const BernsteinNet& net);
+
 // Largest degree of a graph whose strip keeps both degrees at most kMaxDegree; 0 if there is none.
 int LargestStripDegree(const BernsteinNet& carrier, bool along_u);
 

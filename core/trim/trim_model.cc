@@ -361,6 +361,24 @@ double JoinTolerance(double error, double size) {
   return std::clamp(2.0 * kMargin * error, kLeastShare * size, most);
 }
 
+Diagnostics ApproximatedSurfaces(const TrimmedModel& model) {
+  constexpr int kMostNamed = 12;
+  std::string names;
+  int count = 0;
+  for (std::size_t f = 0; f < model.faces.size(); ++f) {
+    if (!(model.faces[f].surface_error > 0.0)) continue;
+    if (++count <= kMostNamed) absl::StrAppend(&names, count > 1 ? ", " : "", model.model.faces[f].id);
+  }
+  if (count == 0) return {};
+  if (count > kMostNamed) absl::StrAppend(&names, " and ", count - kMostNamed, " more");
+  return {MakeInfo(
+      "SURFACES_APPROXIMATED",
+      absl::StrFormat(
+          "%d faces lie on surfaces that differ from the file's by at most %.2g mm, offsets or of high "
+          "degree: %s",
+          count, model.surface_error, names))};
+}
+
 bool IsSkipped(const TrimParams& params, std::size_t face) {
   return std::find(params.skipped.begin(), params.skipped.end(), FaceId(face)) != params.skipped.end();
 }
@@ -426,6 +444,8 @@ absl::StatusOr<TrimmedModel> Join(const BrepModel& part, const EdgeCurveTable& c
     }
     face.patch_count = static_cast<int>(cut[f].nets.size());
     face.gap = traced[f].gap();
+    face.surface_error = part.faces[f].surface_error;
+    if (const GridTrace* trace = traced[f].grid()) face.surface_error = trace->surface_error;
     face.border_error = cut[f].border_error + CurveError(part, part.faces[f]);
     double volume = 0.0;
     for (std::size_t k = 0; k < cut[f].nets.size(); ++k) {
@@ -451,10 +471,12 @@ absl::StatusOr<TrimmedModel> Join(const BrepModel& part, const EdgeCurveTable& c
     volumes.Add(part.faces[f], face, volume, slack, 0.5 * size);
     result.largest_gap = std::max(result.largest_gap, face.gap);
     result.border_error = std::max(result.border_error, face.border_error);
+    result.surface_error = std::max(result.surface_error, face.surface_error);
     result.faces.push_back(std::move(face));
   }
   result.model.join_tolerance = JoinTolerance(result.largest_gap + result.border_error, size);
   for (Diagnostic& finding : volumes.Findings(part.bodies)) result.findings.push_back(std::move(finding));
+  for (Diagnostic& finding : ApproximatedSurfaces(result)) result.findings.push_back(std::move(finding));
   return result;
 }
 

@@ -30,6 +30,7 @@ struct TrimmedFace {
   // mm, largest distance of the patches' border from the edges' feet on the surface, and of the edges from
   // those of the file.
   double border_error = 0.0;
+  double surface_error = 0.0;  // mm, by how much its surface may differ from the file's; 0: it is the file's
 };
 
 struct TrimmedModel {
@@ -38,8 +39,9 @@ struct TrimmedModel {
   // A skipped face has the six sides of a box that is larger by at least 1e-4 of the part's size.
   // The join tolerance follows from the gaps and border errors found.
   PatchModel model;
-  std::vector<TrimmedFace> faces;                // as BrepModel::faces
-  double largest_gap = 0.0, border_error = 0.0;  // of all faces
+  std::vector<TrimmedFace> faces;                                     // as BrepModel::faces
+  double largest_gap = 0.0, border_error = 0.0, surface_error = 0.0;  // of all faces
+  // SURFACES_APPROXIMATED (info): which faces have a surface_error, and the largest.
   // FACE_LOST (error): the face has no patches. FACE_TOO_NARROW (warning): it has none, and its area is
   // at most that of a strip of half its border's length that is as wide as the border tolerance.
   // FACE_AREA_DIFFERS, VOLUME_DIFFERS (error): patches and file disagree by more than 1e-4 of the area of

@@ -309,8 +309,9 @@ TEST(TrimJudges, NeedlesWithoutPatchesAreNoLoss) {
   }
 }
 
-// A strip of a surface of degrees 8 and 8 would have the degree 16.
-TEST(TrimSpline, DegreesTooHighForASlantedBorderLoseTheFace) {
+// A strip of a surface of degrees 8 and 8 would have the degree 16: such a surface is approximated, and
+// named.
+TEST(TrimSpline, DegreesTooHighForASlantedBorderAreLowered) {
   for (const int degree : {7, 8, 15}) {
     BsplinePatch sheet;
     sheet.degree_u = sheet.degree_v = degree;
@@ -318,24 +319,31 @@ TEST(TrimSpline, DegreesTooHighForASlantedBorderLoseTheFace) {
       sheet.knots_u.push_back(k <= degree ? 0.0 : 1.0);
       sheet.knots_v.push_back(k <= degree ? 0.0 : 1.0);
     }
+    // z = x^2 / 80 in its own degree: the coefficients of t^2 are k (k - 1) / (n (n - 1)).
     for (int i = 0; i <= degree; ++i) {
-      for (int j = 0; j <= degree; ++j) sheet.points.push_back({40.0 * i / degree, 40.0 * j / degree, 0.0});
+      const double z = 20.0 * i * (i - 1) / (degree * (degree - 1.0));
+      for (int j = 0; j <= degree; ++j) sheet.points.push_back({40.0 * i / degree, 40.0 * j / degree, z});
     }
+    const auto arch = [](double t) { return Vec3(40 * t, 0, 20 * t * t); };
     PartMaker maker;
-    const int circle = maker.Edge(ArcCurve({20, 20, 0}, {10, 0, 0}, {0, 10, 0}, 4));
-    maker.Face(BrepSpline{sheet}, {{UseOf(circle, true, 0, 4, [](double t) {
-                 return Vec2(0.5 + 0.25 * std::cos(t * kPi / 2), 0.5 + 0.25 * std::sin(t * kPi / 2));
-               })}});
-    maker.Face(BrepPlane{}, {Rectangle(maker, {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}})});
+    // The triangle under the diagonal of the sheet.
+    const int side = maker.Edge(PolynomialCurve(2, arch));
+    const int end = maker.Edge(StraightCurve({40, 0, 20}, {40, 40, 20}));
+    const int diagonal =
+        maker.Edge(PolynomialCurve(2, [](double t) { return Vec3(40 * t, 40 * t, 20 * t * t); }));
+    maker.Face(BrepSpline{sheet},
+               {{StraightUse(side, true, {0, 0}, {1, 0}), StraightUse(end, true, {1, 0}, {1, 1}),
+                 StraightUse(diagonal, false, {0, 0}, {1, 1})}});
     const auto trimmed = TrimFaces(maker.part(), {}, RunContext());
-    ASSERT_TRUE(trimmed.ok());
-    if (degree == 7) {
-      EXPECT_NEAR(trimmed->faces[0].area, 100 * kPi, 1e-2);
-      continue;
-    }
-    EXPECT_EQ(trimmed->faces[0].patch_count, 0);
-    ASSERT_EQ(trimmed->findings.size(), 1U);
-    EXPECT_EQ(trimmed->findings[0].code, "FACE_LOST");
+    ASSERT_TRUE(trimmed.ok()) << trimmed.status();
+    // Integral over x of x sqrt(1 + x^2 / 1600) from 0 to 40: 1600 / 3 (2 sqrt(2) - 1).
+    EXPECT_NEAR(trimmed->faces[0].area, 1600.0 / 3.0 * (std::sqrt(8.0) - 1.0), 1e-4) << degree;
+    EXPECT_LE(trimmed->surface_error, 1e-5);
+    EXPECT_EQ(trimmed->surface_error, trimmed->faces[0].surface_error);
+    std::vector<std::string> codes;
+    for (const Diagnostic& finding : trimmed->findings) codes.push_back(finding.code);
+    EXPECT_EQ(codes,
+              degree == 7 ? std::vector<std::string>{} : std::vector<std::string>{"SURFACES_APPROXIMATED"});
   }
 }
 
