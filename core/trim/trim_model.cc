@@ -459,7 +459,10 @@ absl::StatusOr<TrimmedModel> Join(const BrepModel& part, const EdgeCurveTable& c
     }
     // The border may be off by as much, all along.
     const double length = BorderLength(part.faces[f], curves);
-    const double slack = 1e-3 + cut[f].dropped_area + length * (face.border_error + face.gap);
+    // The file's area is that within its own curves on the surface, which may leave its edges in space.
+    const GridTrace* trace = traced[f].grid();
+    const double curves_off = trace == nullptr ? 0.0 : std::min(trace->border.hint_gap, kOpenLoop);
+    const double slack = 1e-3 + cut[f].dropped_area + length * (face.border_error + face.gap + curves_off);
     const JudgedArea judged{part.faces[f].area, slack, length};
     for (Diagnostic& finding : FaceFindings(named, face, cut[f], judged, params)) {
       result.findings.push_back(std::move(finding));

@@ -20,6 +20,7 @@ namespace {
 
 constexpr std::size_t kManyBreaks = 64;  // from so many knots on, four points between two of them do
 constexpr double kAgreement = 1e-8;
+constexpr double kSameBreak = 1e-9;  // of the range
 constexpr int kMostHalvings = 5;
 // Into how many steps a direction is cut at least, so that eight points follow an arc or a high degree.
 int FewestSteps(const Geom_Surface& bare) {
@@ -54,6 +55,13 @@ std::vector<double> BreaksOf(const Handle(Geom_Surface) & bare, const NeededPara
   }
   breaks.push_back(own.high);
   std::sort(breaks.begin(), breaks.end());
+  // A span between the end of the range and a knot beside it needs no steps, and must not take them from
+  // the others.
+  const double close = kSameBreak * (own.high - own.low);
+  breaks.erase(
+      std::unique(breaks.begin(), breaks.end(), [close](double a, double b) { return b - a <= close; }),
+      breaks.end());
+  breaks.back() = own.high;
   const auto spans = static_cast<int>(breaks.size()) - 1;
   const int fewest = along_u ? FewestSteps(*bare) : 1;
   if (spans >= fewest) return breaks;
