@@ -145,7 +145,13 @@ int Import(const ImportOrder& order, const Answers& answers) {
   part->facts.findings = Forgiven(std::move(part->facts.findings), order.skipped);
   const absl::StatusOr<TrimmedModel> trimmed = TrimFaces(part->model, params, run);
   if (!trimmed.ok()) {
-    answers.Error("NO_FACE", std::string(trimmed.status().message()));
+    // Why the reader took no face says more than that none is left.
+    const Diagnostics& findings = part->facts.findings;
+    const auto fault = std::find_if(findings.begin(), findings.end(), [](const Diagnostic& finding) {
+      return finding.severity == Severity::kError;
+    });
+    const std::string why = fault == findings.end() ? "" : ": " + fault->message;
+    answers.Error("NO_FACE", std::string(trimmed.status().message()) + why);
     return 1;
   }
   v1::ImportResult result = ToWire(part->model, *trimmed);

@@ -146,6 +146,22 @@ UseTrace ShortSide(UseTrace& one, UseTrace& next, const Lines& lines) {
   return side;
 }
 
+// A degenerate edge between neighbours that meet on the surface, as some systems leave behind at a corner:
+// it is no pole, and wherever the file has it, it stays at the end of the edge before.
+void PullNeedlessPoles(std::vector<UseTrace>& loop) {
+  const auto count = loop.size();
+  for (std::size_t k = 0; count > 2 && k < count; ++k) {
+    UseTrace& pole = loop[k];
+    const UseTrace &before = loop[(k + count - 1) % count], &after = loop[(k + 1) % count];
+    if (!pole.degenerate || before.degenerate || after.degenerate) continue;
+    const Vec2 a = before.end();
+    if ((a - after.begin()).cwiseAbs().maxCoeff() > 0.25) continue;
+    pole.iso = after.iso == 0 ? 1 : 0;
+    pole.constant = before.iso == pole.iso ? before.constant : a[pole.iso];
+    pole.places = {a, a};
+  }
+}
+
 // Makes neighbours in the loop meet. A degenerate edge is drawn between its neighbours, and sides are made
 // where the loop jumps over one.
 absl::StatusOr<std::vector<UseTrace>> CloseLoop(const CarrierGrid& grid, std::vector<UseTrace>& loop,
@@ -235,6 +251,7 @@ absl::StatusOr<BorderTrace> TraceBorder(const BrepFace& face, const EdgeCurveTab
         for (int axis = 0; axis < 2; ++axis) p[axis] = lines.Snapped(axis, p[axis]);
       }
     }
+    PullNeedlessPoles(loop);
     absl::StatusOr<std::vector<UseTrace>> sides = CloseLoop(grid, loop, lines);
     if (!sides.ok()) return sides.status();
     for (UseTrace& side : *sides) border.short_sides.push_back(std::move(side));

@@ -88,6 +88,13 @@ class CarrierCells {
       }
     }
     if (depth > kMaxCuts) {
+      if (const double size = SizeOf(cell); size <= tolerance_) {
+        // Borders that cross by less than they may be off anyway: the middle decides.
+        out_->border_error = std::max(out_->border_error, size);
+        if (InsideBorder(column_, {cell.middle(0), cell.middle(1)}))
+          EmitStrip(Bottom(cell, true), Top(cell, true), 0);
+        return absl::OkStatus();
+      }
       return absl::FailedPreconditionError(absl::StrFormat(
           "borders cross near the grid coordinates %.6f %.6f", cell.middle(0), cell.middle(1)));
     }
@@ -108,6 +115,13 @@ class CarrierCells {
     }
     if (const absl::Status done = Divide(low, std::move(below), depth + 1); !done.ok()) return done;
     return Divide(high, std::move(above), depth + 1);
+  }
+
+  // About: the length of the cell's diagonal, mm.
+  double SizeOf(const Cell& cell) const {
+    const SurfaceJet jet = JetAt(grid_, at_, {cell.middle(0), cell.middle(1)});
+    return std::hypot((cell.high[0] - cell.low[0]) * jet.du.norm(),
+                      (cell.high[1] - cell.low[1]) * jet.dv.norm());
   }
 
   // The graphs from bottom to top, if all of them cross the cell from side to side along the axis.

@@ -1,5 +1,6 @@
 #include "import/occt/curves.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <functional>
@@ -141,7 +142,15 @@ absl::StatusOr<CurvePart> Approximated(const Handle(Geom_Curve) & curve, double 
   PM_ASSIGN_OR_RETURN(CurvePart part, SplineBetween(fit.Curve(), fit.Curve()->FirstParameter(),
                                                     fit.Curve()->LastParameter()));
   part.map = {ParameterMap::Kind::kShift, first, last, 1, part.map.first + part.map.shift - first};
-  part.error = fit.MaxError();
+  // The fit's own figure may be far too small.
+  constexpr int kPlaces = 1000;
+  double most = 0.0;
+  for (int k = 0; k <= kPlaces; ++k) {
+    const double t = first + (last - first) * k / kPlaces,
+                 own = std::clamp(part.map(t), fit.Curve()->FirstParameter(), fit.Curve()->LastParameter());
+    most = std::max(most, fit.Curve()->Value(own).Distance(curve->Value(t)));
+  }
+  part.error = std::max(fit.MaxError(), 2.0 * most);
   return part;
 }
 

@@ -8,6 +8,7 @@
 #include <IGESData_IGESEntity.hxx>
 #include <IGESData_IGESModel.hxx>
 #include <IGESGeom_BoundedSurface.hxx>
+#include <IGESGeom_CurveOnSurface.hxx>
 #include <IGESGeom_TrimmedSurface.hxx>
 #include <IGESGraph_Color.hxx>
 #include <IGESSolid_Face.hxx>
@@ -36,9 +37,17 @@ std::optional<std::uint32_t> RgbOf(const IGESData_IGESEntity& entity) {
   return kColours[static_cast<std::size_t>(rank - 1)];
 }
 
+// Whether a border has curves: some systems write an empty one for a point on a face.
+bool HasCurves(const Handle(IGESGeom_CurveOnSurface) & border) {
+  return !border.IsNull() && (!border->CurveUV().IsNull() || !border->Curve3D().IsNull());
+}
+
 int LoopCount(const Entity& entity) {
   if (const auto trimmed = As<IGESGeom_TrimmedSurface>(entity)) {
-    return trimmed->NbInnerContours() + (trimmed->HasOuterContour() ? 1 : 0);
+    int count = trimmed->HasOuterContour() && HasCurves(trimmed->OuterContour()) ? 1 : 0;
+    for (int k = 1; k <= trimmed->NbInnerContours(); ++k)
+      count += HasCurves(trimmed->InnerContour(k)) ? 1 : 0;
+    return count;
   }
   if (const auto bounded = As<IGESGeom_BoundedSurface>(entity)) return bounded->NbBoundaries();
   if (const auto face = As<IGESSolid_Face>(entity)) return face->NbLoops();

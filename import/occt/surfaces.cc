@@ -5,7 +5,6 @@
 #include <utility>
 
 #include <GeomConvert.hxx>
-#include <GeomConvert_ApproxSurface.hxx>
 #include <Geom_BSplineSurface.hxx>
 #include <Geom_BezierSurface.hxx>
 #include <Geom_ConicalSurface.hxx>
@@ -24,6 +23,7 @@
 #include "core/patch/patch.h"
 #include "import/occt/convert.h"
 #include "import/occt/curves.h"
+#include "import/occt/fit_surface.h"
 #include "import/occt/spline_surfaces.h"
 
 namespace patchmill {
@@ -112,22 +112,15 @@ bool Folds(const Geom_OffsetSurface& offset, const CutRange& u, const CutRange& 
   return false;
 }
 
-absl::StatusOr<Handle(Geom_BSplineSurface)> Approximated(const Handle(Geom_Surface) & bare, const CutRange& u,
-                                                         const CutRange& v, double& error) {
+absl::StatusOr<FittedSurface> Approximated(const Handle(Geom_Surface) & bare, const CutRange& u,
+                                           const CutRange& v) {
   if (const auto offset = As<Geom_OffsetSurface>(bare)) {
     if (Folds(*offset, u, v)) {
       return absl::InvalidArgumentError(
           absl::StrFormat("OFFSET_FOLDS an offset by %g mm turns over on its surface", offset->Offset()));
     }
   }
-  const Handle(Geom_Surface) cut =
-      new Geom_RectangularTrimmedSurface(bare, u.low, u.high, v.low, v.high, true, true);
-  constexpr int kDegree = 7, kMostSegments = 400;
-  const GeomConvert_ApproxSurface fit(cut, kApproximationError, GeomAbs_C1, GeomAbs_C1, kDegree, kDegree,
-                                      kMostSegments, 0);
-  if (!fit.HasResult()) return absl::InvalidArgumentError("a surface could not be approximated");
-  error = fit.MaxError();
-  return fit.Surface();
+  return FitSurface(bare, {u.low, u.high}, {v.low, v.high}, kApproximationError);
 }
 
 // Compares the spline with the surface as given, at places of the range.
@@ -144,7 +137,7 @@ absl::Status CheckSame(const Geom_Surface& bare, const SurfacePart& part, const 
                last_v = *(patch.knots_v.end() - 1 - patch.degree_v);
   double size = 1.0;
   for (const Vec3& p : patch.points) size = std::max(size, p.norm());
-  constexpr int kPlaces = 5;
+  constexpr int kPlaces = 37;  // no number of knots
   for (int i = 0; i <= kPlaces; ++i) {
     for (int j = 0; j <= kPlaces; ++j) {
       const double a = u.low + (u.high - u.low) * i / kPlaces, b = v.low + (v.high - v.low) * j / kPlaces;
@@ -217,15 +210,17 @@ absl::StatusOr<SurfacePart> SurfaceOver(const Handle(Geom_Surface) & bare, const
     if (const auto bezier = As<Geom_BezierSurface>(bare))
       spline = GeomConvert::SurfaceToBSplineSurface(bezier);
     if (spline.IsNull() || spline->UDegree() > kMaxSplineDegree || spline->VDegree() > kMaxSplineDegree) {
-      PM_ASSIGN_OR_RETURN(spline, Approximated(bare, u, v, part.error));
+      PM_ASSIGN_OR_RETURN(FittedSurface fitted, Approximated(bare, u, v));
+      patch = std::move(fitted.patch);
+      part.error = fitted.error;
     } else {
       spline = Cut(spline, u.low, u.high, v.low, v.high);
+      PM_ASSIGN_OR_RETURN(patch, Copied(*spline));
+      double first_u = 0.0, last_u = 0.0, first_v = 0.0, last_v = 0.0;
+      spline->Bounds(first_u, last_u, first_v, last_v);
+      part.u.shift = first_u - u.low;
+      part.v.shift = first_v - v.low;
     }
-    PM_ASSIGN_OR_RETURN(patch, Copied(*spline));
-    double first_u = 0.0, last_u = 0.0, first_v = 0.0, last_v = 0.0;
-    spline->Bounds(first_u, last_u, first_v, last_v);
-    part.u.shift = first_u - u.low;
-    part.v.shift = first_v - v.low;
   }
   part.surface = BrepSpline{std::move(patch)};
   PM_RETURN_IF_ERROR(CheckSame(*bare, part, u, v));

@@ -309,6 +309,55 @@ TEST(TrimJudges, NeedlesWithoutPatchesAreNoLoss) {
   }
 }
 
+// Systems leave edges without length behind at corners. The file's place of such an edge may be anywhere.
+TEST(TrimSpline, AnEdgeWithoutLengthAtACornerIsNoPole) {
+  BsplinePatch sheet{1, 1, {0, 0, 1, 1}, {0, 0, 1, 1}, {}, {}};
+  sheet.points = {{0, 0, 0}, {0, 30, 0}, {40, 0, 0}, {40, 30, 0}};
+  for (const Vec2& stated : {Vec2(0.75, 0.5), Vec2(0.7, 0.5), Vec2(0.1, 0.9)}) {
+    PartMaker maker;
+    const int first = maker.Edge(StraightCurve({0, 0, 0}, {30, 15, 0}));
+    const int second = maker.Edge(StraightCurve({30, 15, 0}, {0, 30, 0}));
+    const int third = maker.Edge(StraightCurve({0, 30, 0}, {0, 0, 0}));
+    maker.Face(BrepSpline{sheet},
+               {{StraightUse(first, true, {0, 0}, {0.75, 0.5}),
+                 UseOf(maker.Pole(), true, 0, 1, [&](double) { return stated; }),
+                 StraightUse(second, true, {0.75, 0.5}, {0, 1}), StraightUse(third, true, {0, 1}, {0, 0})}});
+    EXPECT_NEAR(Trimmed(maker.part()).faces[0].area, 450.0, 1e-6) << stated.transpose();
+  }
+}
+
+// Two borders of a face that cross by less than they may be off.
+TEST(TrimSpline, BordersThatCrossByLittleAreTaken) {
+  BsplinePatch sheet{1, 1, {0, 0, 1, 1}, {0, 0, 1, 1}, {}, {}};
+  sheet.points = {{0, 0, 0}, {0, 40, 0}, {40, 0, 0}, {40, 40, 0}};
+  const auto arch = [](double sag) {
+    return [sag](double t) { return Vec3(10 + 20 * t, 10 + 3 * t + sag * 4 * t * (1 - t), 0); };
+  };
+  for (const double off : {1e-7, 1e-6, 1e-5}) {
+    PartMaker maker;
+    // The way there is the way back, but for a bend that crosses it: a lens without width, beside a
+    // rectangle.
+    const auto there = arch(off);
+    const auto back = [&](double t) {
+      return Vec3(there(1 - t) + Vec3(0, off * std::sin(12 * t) - 4 * off * t * (1 - t), 0));
+    };
+    const int way = maker.Edge(PolynomialCurve(2, there)),
+              home = maker.Edge(PolynomialCurve(
+                  9, [&](double t) { return Vec3(back(t) - Vec3(0, off * t * std::sin(12.0), 0)); }));
+    const auto on = [](const Vec3& p) { return Vec2(p.x() / 40, p.y() / 40); };
+    maker.Face(BrepSpline{sheet}, {Rectangle(maker, {{0, 0, 0}, {40, 0, 0}, {40, 40, 0}, {0, 40, 0}}),
+                                   {UseOf(way, true, 0, 1, [&](double t) { return on(there(t)); }),
+                                    UseOf(home, true, 0, 1, [&](double t) { return on(back(t)); })}});
+    // The rectangle's hints are places in mm: those of the sheet are fortieths.
+    for (BrepEdgeUse& use : maker.part().faces[0].loops[0]) {
+      for (Vec2& hint : use.hint) hint /= 40.0;
+    }
+    const TrimmedModel model = Trimmed(maker.part());
+    EXPECT_NEAR(model.faces[0].area, 1600.0, 40 * off) << off;
+    EXPECT_LE(model.border_error, 1e-4) << off;
+  }
+}
+
 // A strip of a surface of degrees 8 and 8 would have the degree 16: such a surface is approximated, and
 // named.
 TEST(TrimSpline, DegreesTooHighForASlantedBorderAreLowered) {
