@@ -56,7 +56,9 @@ TEST(RunJobHardParts, DeepestLeftover) {
     const JobResult result = testing::Mill(surface, job);
     ASSERT_FALSE(result.program.empty()) << testing::Describe(result);
     std::vector<PathSegment> moves;
-    for (const ProgramMove& move : ReadProgram(result.program)->moves) {
+    const auto motion = ReadProgram(result.program);
+    ASSERT_TRUE(motion.ok()) << motion.status();
+    for (const ProgramMove& move : motion->moves) {
       if (move.kind == ProgramMove::Kind::kFeed)
         moves.push_back({move.from + Vec3(0, 0, 3.0), move.to + Vec3(0, 0, 3.0)});
     }

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "core/base/index.h"
+#include "core/base/status.h"
 #include "core/editing/edit_network.h"
 #include "core/editing/reach_points.h"
 #include "core/joining/continuity.h"
@@ -300,9 +301,9 @@ TEST(VertexEdit, MovesTheVertexAndKeepsJoints) {
 double WorstAngle(const CurveNetwork& network) {
   auto built = BuildNetwork(Join(network).model);
   double worst = 0.0;
-  for (const EdgeContinuity& e : MeasureContinuity(*built, 30, RunContext(1))->edges) {
-    worst = std::max(worst, e.max_angle);
-  }
+  const auto joints = MeasureContinuity(*built, 30, RunContext(1));
+  PM_CHECK(joints.ok());
+  for (const EdgeContinuity& e : joints->edges) worst = std::max(worst, e.max_angle);
   return worst;
 }
 
