@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <map>
 #include <utility>
 
@@ -53,7 +54,9 @@ class TrapezoidCutter {
       walls_.push_back(arc.x1());
     }
     std::sort(walls_.begin(), walls_.end());
-    walls_.erase(std::unique(walls_.begin(), walls_.end()), walls_.end());
+    // The x of an end is a quotient: what is one wall may differ in the last bits.
+    walls_.erase(std::unique(walls_.begin(), walls_.end(), SameWall), walls_.end());
+    for (const BorderArc& arc : arcs) spans_.push_back({WallAt(arc.x0()), WallAt(arc.x1())});
   }
 
   absl::StatusOr<Trapezoids> Run(const RunContext& run) {
@@ -66,6 +69,20 @@ class TrapezoidCutter {
   }
 
  private:
+  // The walls at both ends of an arc.
+  struct WallSpan {
+    double from = 0.0, to = 0.0;
+  };
+  static bool SameWall(double a, double b) {
+    return std::abs(b - a) <=
+           8.0 * std::numeric_limits<double>::epsilon() * std::max(std::abs(a), std::abs(b));
+  }
+  double WallAt(double x) const {
+    const auto after = std::upper_bound(walls_.begin(), walls_.end(), x);
+    if (after != walls_.end() && SameWall(x, *after)) return *after;
+    return after == walls_.begin() ? *after : *(after - 1);
+  }
+
   absl::StatusOr<std::vector<Trapezoid>> FindTrapezoids(const std::vector<double>& walls,
                                                         const RunContext& run) {
     std::vector<Trapezoid> done;
@@ -73,15 +90,15 @@ class TrapezoidCutter {
     std::vector<int> by_start(arcs_.size());
     for (std::size_t k = 0; k < by_start.size(); ++k) by_start[k] = static_cast<int>(k);
     std::sort(by_start.begin(), by_start.end(), [&](int a, int b) {
-      return std::make_pair(arcs_[At(a)].x0(), a) < std::make_pair(arcs_[At(b)].x0(), b);
+      return std::make_pair(spans_[At(a)].from, a) < std::make_pair(spans_[At(b)].from, b);
     });
     std::size_t next = 0;
     std::vector<int> active;
     for (std::size_t k = 0; k + 1 < walls.size(); ++k) {
       if (const absl::Status status = run.Check(); !status.ok()) return status;
       const double x0 = walls[k], x1 = walls[k + 1], middle = x0 + 0.41421356 * (x1 - x0);
-      std::erase_if(active, [&](int a) { return arcs_[At(a)].x1() <= x0; });
-      while (next < by_start.size() && arcs_[At(by_start[next])].x0() <= x0)
+      std::erase_if(active, [&](int a) { return spans_[At(a)].to <= x0; });
+      while (next < by_start.size() && spans_[At(by_start[next])].from <= x0)
         active.push_back(by_start[next++]);
       std::vector<std::pair<double, int>> stack;
       for (const int a : active) {
@@ -161,6 +178,7 @@ class TrapezoidCutter {
   const std::vector<BorderArc>& arcs_;
   const double thinnest_;
   std::vector<double> walls_;
+  std::vector<WallSpan> spans_;  // [arc]
   Trapezoids result_;
 };
 

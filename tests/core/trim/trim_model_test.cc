@@ -119,6 +119,46 @@ TEST(TrimPlane, PlatesWithRoundHolesAreExact) {
   }
 }
 
+// Bites of three quarters of a circle along a side. The weights at their ends are not 1, so the x of such
+// an end is a quotient, and may differ in its last bit from that of its neighbour.
+TEST(TrimPlane, RoundBitesAlongASide) {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  for (int round = 0; round < 60; ++round) {
+    const double r = 1.0 + unit(random), length = 50.0 + unit(random), height = 8.0 + unit(random),
+                 shift = 30.0 * unit(random);
+    const auto at = [&](double x, double y) { return Vec3(x + shift, y - shift, 0); };
+    PartMaker maker;
+    BrepLoop loop;
+    const auto line = [&](const Vec3& a, const Vec3& b) {
+      loop.push_back(StraightUse(maker.Edge(StraightCurve(a, b)), true, Xy(a), Xy(b)));
+    };
+    line(at(0, 0), at(length, 0));
+    line(at(length, 0), at(length, height));
+    Vec3 last = at(length, height);
+    const double half = r * std::sqrt(0.5);
+    for (int k = 4; k >= 0; --k) {
+      const double middle = 6.0 + 9.0 * k + unit(random);
+      const Vec3 center = at(middle, height - half);
+      line(last, at(middle + half, height));
+      // From 45 degrees over -90 degrees to 135 degrees, clockwise.
+      BrepCurve arc = ArcCurve(center, {half, half, 0}, {half, -half, 0}, 3);
+      const double scale = 0.5 + unit(random);
+      for (double& w : arc.weights) w *= scale;
+      const int bite = maker.Edge(std::move(arc));
+      loop.push_back(UseOf(bite, true, 0, 3, [=](double t) {
+        const double angle = kPi / 4 - t * kPi / 2;
+        return Vec2(center.x() + r * std::cos(angle), center.y() + r * std::sin(angle));
+      }));
+      last = at(middle - half, height);
+    }
+    line(last, at(0, height));
+    line(at(0, height), at(0, 0));
+    maker.Face(BrepPlane{}, {loop});
+    EXPECT_NEAR(Area(Trimmed(maker.part())), length * height - 5 * r * r * (0.75 * kPi + 0.5), 1e-8) << round;
+  }
+}
+
 TEST(TrimPlane, ADiscAndARing) {
   PartMaker maker;
   maker.Face(BrepPlane{}, {Circle(maker, {3, 4, 0}, 7, true)});
