@@ -27,8 +27,8 @@ class PointCount {
   double points_ = 0.0;
 };
 
-absl::StatusOr<std::vector<ZeroCurve>> TraceFlow(const Surface& surface, FlowParams flow, double tolerance,
-                                                 const RunContext& run) {
+absl::StatusOr<FlowLines> TraceFlow(const Surface& surface, FlowParams flow, double tolerance,
+                                    const RunContext& run) {
   constexpr double kUsual = 1.0 / 40.0, kClosest = 1e-3;  // shares of the diagonal of the box
   const double diagonal = surface.box.Diagonal();
   if (flow.spacing == 0.0) flow.spacing = kUsual * diagonal;
@@ -58,10 +58,10 @@ absl::StatusOr<std::vector<TracedLevel>> TraceLevels(const Surface& surface,
       continue;
     }
     if (orders[k].flow) {
-      PM_ASSIGN_OR_RETURN(std::vector<ZeroCurve> flow,
-                          TraceFlow(surface, *orders[k].flow, params.tolerance, run));
-      PM_RETURN_IF_ERROR(points.Add(flow));
-      levels.push_back({family, 0.0, std::move(flow)});
+      PM_ASSIGN_OR_RETURN(FlowLines flow, TraceFlow(surface, *orders[k].flow, params.tolerance, run));
+      PM_RETURN_IF_ERROR(points.Add(flow.curves));
+      const bool umbilic = orders[k].flow->kind == FlowKind::kAlongCurvature && flow.all_singular;
+      levels.push_back({family, 0.0, std::move(flow.curves), umbilic});
       continue;
     }
     std::vector<double> wanted = orders[k].levels;

@@ -17,6 +17,7 @@ struct TracedLevel {
   int family = 0;      // position of its order
   double level = 0.0;  // in the unit of the domain; 0 for a family without levels
   std::vector<ZeroCurve> curves;
+  bool all_umbilic = false;  // lines of curvature have no direction anywhere
 };
 
 struct TraceParams {

@@ -28,6 +28,7 @@ const std::map<std::string, v1::LineKind> kKinds = {
     {"flow", v1::LINE_KIND_FLOW},
     {"slope-flow", v1::LINE_KIND_SLOPE_FLOW},
     {"intersection", v1::LINE_KIND_INTERSECTION},
+    {"curvature", v1::LINE_KIND_CURVATURE},
 };
 
 struct LinesOptions {
@@ -125,7 +126,12 @@ absl::Status Run(const LinesOptions& options, InterruptWatch& watch) {
     output.Set(output.EndsIn(".svg") ? response->picture().data() : Json(*response));
   }
   if (const absl::Status written = Commit({&output}); !written.ok()) return written;
-  if (!options.common.quiet) Print(*response);
+  if (!options.common.quiet) {
+    Print(*response);
+    for (const v1::Diagnostic& finding : response->diagnostics()) {
+      if (finding.code() == "CURVATURES_ALIKE") fmt::print("  {}\n", Line(finding));
+    }
+  }
   return absl::OkStatus();
 }
 
@@ -153,7 +159,8 @@ Command AddLines(CLI::App& app) {
   app.add_option("--count", options->count, "number of levels to choose when none are given; default 12")
       ->check(CLI::Range(1, 1000));
   AddNumber(app, "--spacing", options->spacing,
-            "flow: distance between neighbouring lines, mm; default: a fortieth of the diagonal of the box");
+            "flow, slope-flow, curvature: distance between neighbouring lines, mm; default: a fortieth of "
+            "the diagonal of the box");
   AddVector(app, "--direction", options->direction, "X,Y,Z: axis, light or sight; default 0,0,1");
   AddVector(app, "--across", options->across,
             "X,Y,Z, for --kind highlight: a direction across --direction; default 1,0,0");

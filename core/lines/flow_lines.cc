@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
+#include <optional>
 #include <unordered_map>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -21,19 +23,26 @@ constexpr int kMostBorders = 100;   // less than a whole step apart: such a line
 // Points of all lines, in cells as large as the spacing.
 class Neighbors {
  public:
-  explicit Neighbors(double spacing) : spacing_(spacing) {}
+  explicit Neighbors(const FlowParams& params)
+      : spacing_(params.spacing), least_align_(params.kind == FlowKind::kAlongCurvature ? 0.7071 : -1.0) {}
 
-  void Add(const FlowPlace& place) { cells_[Key(place.at.p)].push_back({place.at.p, place.normal}); }
+  void Add(const FlowPlace& place) { cells_[Key(place.at.p)].push_back(place); }
 
-  // True if a point of a line on the same side of the surface is nearer than `distance` <= spacing.
-  bool Any(const Vec3& p, const Vec3& normal, double distance) const {
+  // True if a point of a line on the same side of the surface is nearer than `distance` <= spacing to
+  // place.at.p. Of lines of curvature, only those of the same family count.
+  bool Any(const FlowPlace& place, double distance) const {
+    const Vec3& p = place.at.p;
     for (int i = -1; i <= 1; ++i) {
       for (int j = -1; j <= 1; ++j) {
         for (int k = -1; k <= 1; ++k) {
           const auto cell = cells_.find(Key(p + spacing_ * Vec3(i, j, k)));
           if (cell == cells_.end()) continue;
-          for (const auto& [q, n] : cell->second) {
-            if ((q - p).squaredNorm() < distance * distance && n.dot(normal) > 0.0) return true;
+          for (const FlowPlace& other : cell->second) {
+            if ((other.at.p - p).squaredNorm() < distance * distance &&
+                other.normal.dot(place.normal) > 0.0 &&
+                std::abs(other.tangent.dot(place.tangent)) > least_align_) {
+              return true;
+            }
           }
         }
       }
@@ -50,16 +59,16 @@ class Neighbors {
     }
     return key;
   }
-  double spacing_;
-  std::unordered_map<std::uint64_t, std::vector<std::pair<Vec3, Vec3>>> cells_;  // looked up, never iterated
+  double spacing_, least_align_;
+  std::unordered_map<std::uint64_t, std::vector<FlowPlace>> cells_;  // looked up, never iterated
 };
 
 class FlowTracer {
  public:
   FlowTracer(const Surface& surface, const FlowParams& params, const RunContext& run)
-      : surface_(surface), params_(params), run_(run), neighbors_(params.spacing) {}
+      : surface_(surface), params_(params), run_(run), neighbors_(params) {}
 
-  absl::StatusOr<std::vector<ZeroCurve>> Run() {
+  absl::StatusOr<FlowLines> Run() {
     for (std::size_t k = 0; k < surface_.pieces.size(); ++k) {
       run_.Progress("flow lines", static_cast<double>(k) / static_cast<double>(surface_.pieces.size()));
       const PieceId piece(k);
@@ -70,7 +79,7 @@ class FlowTracer {
           while (!seeds_.empty()) {
             const SurfacePoint seed = seeds_.front();
             seeds_.pop_front();
-            Begin(seed);
+            BeginAll(seed);
             if (run_.Cancelled()) return run_.Check();
             if (point_count_ > params_.max_points) {
               return absl::ResourceExhaustedError(fmt::format(
@@ -80,7 +89,7 @@ class FlowTracer {
         }
       }
     }
-    return std::move(lines_);
+    return std::move(made_);
   }
 
  private:
@@ -97,26 +106,42 @@ class FlowTracer {
     return std::clamp(static_cast<int>(std::ceil(2.0 * size / params_.spacing)), 1, 1000);
   }
 
-  void Begin(const SurfacePoint& seed) {
+  // Begins the lines of all families at a seed.
+  void BeginAll(const SurfacePoint& seed) {
     const auto start = PlaceOn({surface_, params_, 1.0}, seed.piece, seed.u, seed.v);
-    if (!start || neighbors_.Any(start->at.p, start->normal, params_.spacing)) return;
-    std::vector<FlowPlace> up = Follow(*start, 1.0);
-    FlowPlace back = *start;
-    back.tangent = -back.tangent;
-    std::vector<FlowPlace> line = Follow(back, -1.0);
+    if (!start) return;
+    made_.all_singular = false;
+    Begin(*start);
+    if (params_.kind != FlowKind::kAlongCurvature) return;
+    const Vec3 across = start->normal.cross(start->tangent);
+    if (const auto other = PlaceOn({surface_, params_, 1.0, across}, seed.piece, seed.u, seed.v)) {
+      Begin(*other);
+    }
+  }
+
+  void Begin(const FlowPlace& start) {
+    if (neighbors_.Any(start, params_.spacing)) return;
+    const Way up = Follow(start, 1.0);
+    std::vector<FlowPlace> line;
+    if (!up.closed) {
+      FlowPlace back = start;
+      back.tangent = -back.tangent;
+      line = Follow(back, -1.0).places;
+    }
     std::reverse(line.begin(), line.end());
-    line.push_back(*start);
-    line.insert(line.end(), up.begin(), up.end());
+    line.push_back(start);
+    line.insert(line.end(), up.places.begin(), up.places.end());
     double length = 0.0;
     for (std::size_t i = 1; i < line.size(); ++i) length += (line[i].at.p - line[i - 1].at.p).norm();
     if (length < kShortest * params_.spacing) return;
     ZeroCurve curve;
+    curve.closed = up.closed;
     for (const FlowPlace& place : line) {
       neighbors_.Add(place);
       curve.points.push_back(place.at);
     }
     point_count_ += line.size();
-    lines_.push_back(std::move(curve));
+    made_.curves.push_back(std::move(curve));
     Seed(line);
   }
 
@@ -129,16 +154,61 @@ class FlowTracer {
       since = 0.0;
       const Vec3 across = line[i].normal.cross(line[i].tangent);
       for (const double side : {1.001, -1.001}) {
-        const Vec3 p = line[i].at.p + side * params_.spacing * across;
-        if (neighbors_.Any(p, line[i].normal, 0.9 * params_.spacing)) continue;
-        const auto near = ClosestToPoint(surface_, p, 0.5 * params_.spacing, 0.01 * params_.spacing);
+        FlowPlace beside = line[i];
+        beside.at.p += side * params_.spacing * across;
+        if (neighbors_.Any(beside, 0.9 * params_.spacing)) continue;
+        const auto near =
+            ClosestToPoint(surface_, beside.at.p, 0.5 * params_.spacing, 0.01 * params_.spacing);
         if (near) seeds_.push_back(near->at);
       }
     }
   }
 
-  std::vector<FlowPlace> Follow(const FlowPlace& start, double sign) const {
-    std::vector<FlowPlace> line;
+  struct Way {
+    std::vector<FlowPlace> places;  // without the start
+    bool closed = false;            // the last place joins the start
+  };
+
+  // A line of curvature may come back to places where it has been. Nothing is done for other lines, along
+  // which a function grows.
+  class OwnWay {
+   public:
+    OwnWay(const FlowPlace& start, const FlowParams& params)
+        : start_(start), params_(params), passed_(params), behind_({{start, 0.0}}) {}
+
+    enum class Meets { kNothing, kStart, kItself };
+    // `place` is the next place after `from`, `length` mm from the start.
+    Meets Add(const FlowPlace& from, const FlowPlace& place, double length) {
+      if (params_.kind != FlowKind::kAlongCurvature) return Meets::kNothing;
+      while (!behind_.empty() && behind_.front().second < length - 2.0 * params_.spacing) {
+        passed_.Add(behind_.front().first);
+        behind_.pop_front();
+      }
+      behind_.emplace_back(place, length);
+      const Vec3 chord = place.at.p - from.at.p, to_start = start_.at.p - from.at.p;
+      const double square = chord.squaredNorm();
+      const double share = square > 0.0 ? std::clamp(chord.dot(to_start) / square, 0.0, 1.0) : 0.0;
+      if (length > 2.0 * params_.spacing && (to_start - share * chord).norm() <= 2.0 * params_.tolerance &&
+          place.tangent.dot(start_.tangent) > 0.0) {
+        return Meets::kStart;
+      }
+      return passed_.Any(place, kNear * params_.spacing) ? Meets::kItself : Meets::kNothing;
+    }
+
+   private:
+    const FlowPlace& start_;
+    const FlowParams& params_;
+    Neighbors passed_;                                 // places of this line, more than two spacings behind
+    std::deque<std::pair<FlowPlace, double>> behind_;  // the others, with their lengths from the start
+  };
+
+  Way Follow(const FlowPlace& start, double sign) const {
+    Way way;
+    std::vector<FlowPlace>& line = way.places;
+    OwnWay own(start, params_);
+    // Where the line came beside itself. It may be about to reach its start, so it goes on for one spacing.
+    std::optional<std::size_t> beside;
+    double beside_length = 0.0;
     FlowPlace at = start;
     double step = 0.1 * params_.spacing, length = 0.0;
     int borders = 0;  // borders met one after the other
@@ -147,7 +217,17 @@ class FlowTracer {
       const auto next = Advance({surface_, params_, sign}, at, &step);
       if (!next) break;
       length += (next->place.at.p - at.at.p).norm();
-      if (neighbors_.Any(next->place.at.p, next->place.normal, kNear * params_.spacing)) break;
+      if (neighbors_.Any(next->place, kNear * params_.spacing)) break;
+      const auto meets = own.Add(at, next->place, length);
+      if (meets == OwnWay::Meets::kStart) {
+        way.closed = true;
+        return way;
+      }
+      if (meets == OwnWay::Meets::kItself && !beside) {
+        beside = line.size();
+        beside_length = length;
+      }
+      if (beside && length > beside_length + params_.spacing) break;
       at = next->place;
       line.push_back(at);
       borders = next->at_border ? borders + 1 : 0;
@@ -155,10 +235,16 @@ class FlowTracer {
       if (borders > kMostBorders) break;
       const auto beyond = CrossBorder({surface_, params_, sign}, at);
       if (!beyond) break;
+      length += (beyond->at.p - at.at.p).norm();
+      if (own.Add(at, *beyond, length) == OwnWay::Meets::kStart) {
+        way.closed = true;
+        return way;
+      }
       at = *beyond;
       line.push_back(at);
     }
-    return line;
+    if (beside) line.resize(*beside);
+    return way;
   }
 
   const Surface& surface_;
@@ -166,14 +252,14 @@ class FlowTracer {
   const RunContext& run_;
   Neighbors neighbors_;
   std::deque<SurfacePoint> seeds_;
-  std::vector<ZeroCurve> lines_;
+  FlowLines made_;
   std::size_t point_count_ = 0;
 };
 
 }  // namespace
 
-absl::StatusOr<std::vector<ZeroCurve>> TraceFlowLines(const Surface& surface, const FlowParams& params,
-                                                      const RunContext& run) {
+absl::StatusOr<FlowLines> TraceFlowLines(const Surface& surface, const FlowParams& params,
+                                         const RunContext& run) {
   if (!(params.spacing > 0.0) || !(params.tolerance > 0.0)) {
     return absl::InvalidArgumentError("flow lines: spacing and tolerance must be > 0");
   }

@@ -4,15 +4,18 @@
 #include <cmath>
 
 #include "core/diffgeo/forms.h"
+#include "core/diffgeo/principal_directions.h"
 #include "core/surface/closest.h"
 
 namespace patchmill {
 namespace {
 
-constexpr double kFlat = 1e-6;        // length of the gradient
-constexpr double kLeastGrowth = 0.3;  // of the function over a step, as a share of the predicted growth
-constexpr double kOnBorder = 1e-9;    // in parameters of a piece
-constexpr double kStray = 1e-12;      // in parameters of a piece; rounding
+constexpr double kFlat = 1e-6;         // length of the gradient
+constexpr double kLeastGrowth = 0.3;   // of the function over a step, as a share of the predicted growth
+constexpr double kOnBorder = 1e-9;     // in parameters of a piece
+constexpr double kStray = 1e-12;       // in parameters of a piece; rounding
+constexpr double kMostTurn = 0.3;      // rad, of a line of curvature over a step
+constexpr double kLeastAlign = 0.866;  // cosine of the largest jump of a line of curvature between pieces
 
 // The derivatives that FlowGradient needs.
 SurfaceJet JetFor(const Surface& surface, const FlowParams& params, PieceId piece, const Vec2& q) {
@@ -21,15 +24,37 @@ SurfaceJet JetFor(const Surface& surface, const FlowParams& params, PieceId piec
                                                : Evaluate(on, q.x(), q.y());
 }
 
-// The velocity in parameters for unit speed in space. Zero where the flow has no direction.
-Vec2 Velocity(const Flow& flow, PieceId piece, const Vec2& q) {
+// The principal direction nearest to flow.heading. Zero at umbilics and where there is no normal.
+Vec3 PrincipalNear(const Flow& flow, const SurfaceJet& jet) {
+  const auto normal = UnitNormal(jet);
+  if (!normal) return Vec3::Zero();
+  const FundamentalForms forms = Forms(jet, *normal);
+  const PrincipalCurvatures k = Principal(forms);
+  const double mean = 0.5 * std::abs(k.k_min + k.k_max);
+  const double least = std::max(kUmbilic * mean, kLeastBend / flow.params.spacing);
+  if (!(0.5 * (k.k_max - k.k_min) > least)) return Vec3::Zero();
+  const auto directions = DirectionsOf(jet, forms);
+  if (!directions) return Vec3::Zero();
+  const double along_min = directions->min.dot(flow.heading), along_max = directions->max.dot(flow.heading);
+  if (std::abs(along_max) > std::abs(along_min)) return along_max < 0.0 ? -directions->max : directions->max;
+  return along_min < 0.0 ? -directions->min : directions->min;
+}
+
+// The unit tangent of the flow. Zero where it has no direction.
+Vec3 Direction(const Flow& flow, const SurfaceJet& jet) {
   const FlowParams& params = flow.params;
-  const SurfaceJet jet = JetFor(flow.surface, params, piece, q);
+  if (params.kind == FlowKind::kAlongCurvature) return PrincipalNear(flow, jet);
   const Vec3 g = FlowGradient(jet, params);
   const double flat = params.kind == FlowKind::kAlongHeight ? kFlat : kFlat / params.spacing;
   const double size = g.norm();
-  if (!(size > flat)) return Vec2::Zero();
-  const Vec3 t = (flow.sign / size) * g;
+  return size > flat ? Vec3((flow.sign / size) * g) : Vec3::Zero();
+}
+
+// The velocity in parameters for unit speed in space. Zero where the flow has no direction.
+Vec2 Velocity(const Flow& flow, PieceId piece, const Vec2& q) {
+  const SurfaceJet jet = JetFor(flow.surface, flow.params, piece, q);
+  const Vec3 t = Direction(flow, jet);
+  if (t.isZero()) return Vec2::Zero();
   const double e = jet.du.squaredNorm(), f = jet.du.dot(jet.dv), h = jet.dv.squaredNorm();
   const double w = e * h - f * f, a = t.dot(jet.du), b = t.dot(jet.dv);
   return {(a * h - b * f) / w, (b * e - a * f) / w};
@@ -91,14 +116,22 @@ std::optional<FlowPlace> PlaceOn(const Flow& flow, PieceId piece, double u, doub
   place.at = {piece, u, v, jet.p};
   place.tangent = (velocity.x() * jet.du + velocity.y() * jet.dv).normalized();
   place.normal = *normal;
+  if (params.kind == FlowKind::kAlongCurvature) {
+    const FundamentalForms forms = Forms(jet, *normal);
+    const double mean = 0.5 * (Principal(forms).k_min + Principal(forms).k_max);
+    place.of_max = NormalCurvature(forms, jet, place.tangent) > mean;
+    return place;
+  }
   place.value =
       params.kind == FlowKind::kAlongHeight ? params.axis.dot(jet.p) : std::abs(params.axis.dot(*normal));
   place.gradient = FlowGradient(jet, params).norm();
   return place;
 }
 
-std::optional<FlowStep> Advance(const Flow& flow, const FlowPlace& from, double* length) {
+std::optional<FlowStep> Advance(const Flow& along, const FlowPlace& from, double* length) {
+  const Flow flow{along.surface, along.params, along.sign, from.tangent};
   const FlowParams& params = flow.params;
+  const bool grows = params.kind != FlowKind::kAlongCurvature;
   const PieceId piece = from.at.piece;
   const Vec2 q(from.at.u, from.at.v);
   const double shortest = 1e-4 * params.spacing;
@@ -132,7 +165,9 @@ std::optional<FlowStep> Advance(const Flow& flow, const FlowPlace& from, double*
     }
     // Around a summit or a pit, long steps would jump back and forth.
     const double grown = flow.sign * (place->value - from.value);
-    const bool sound = error <= params.tolerance && grown > kLeastGrowth * h * from.gradient;
+    const bool steady =
+        grows ? grown > kLeastGrowth * h * from.gradient : turn <= kMostTurn && place->of_max == from.of_max;
+    const bool sound = error <= params.tolerance && steady;
     if (!sound && h > shortest) {
       step.at_border = false;
       continue;
@@ -145,19 +180,24 @@ std::optional<FlowStep> Advance(const Flow& flow, const FlowPlace& from, double*
   }
 }
 
-std::optional<FlowPlace> CrossBorder(const Flow& flow, const FlowPlace& from) {
+std::optional<FlowPlace> CrossBorder(const Flow& along, const FlowPlace& from) {
+  const Flow flow{along.surface, along.params, along.sign, from.tangent};
   const Surface& surface = flow.surface;
+  const bool curvature = flow.params.kind == FlowKind::kAlongCurvature;
+  const double least_align = curvature ? kLeastAlign : 0.0;
+  const double along_border = curvature ? kOnBorder : 0.0;  // what counts as a line along the border
   // Finds the surface a little beyond the border, if there is any.
   const double beyond = std::max(1e-3 * flow.params.spacing, 2.0 * surface.network.join_tolerance);
   const auto enter = [&](const Vec3& p) -> std::optional<FlowPlace> {
     const auto next = ClosestToPoint(surface, p, 0.1 * beyond, 0.01 * beyond);
     if (!next) return std::nullopt;
     const auto place = PlaceOn(flow, next->at.piece, next->at.u, next->at.v);
-    if (!place || place->tangent.dot(from.tangent) <= 0.0) return std::nullopt;
+    if (!place || place->tangent.dot(from.tangent) <= least_align) return std::nullopt;
     // The point lies on a border again, and the flow leaves there: the surface ends here, at a slant.
     const Vec2 q(next->at.u, next->at.v), to = Velocity(flow, next->at.piece, q);
     for (int k = 0; k < 2; ++k) {
-      if ((q[k] <= kOnBorder && to[k] < 0.0) || (q[k] >= 1.0 - kOnBorder && to[k] > 0.0)) return std::nullopt;
+      const double out_of = q[k] <= kOnBorder ? -to[k] : q[k] >= 1.0 - kOnBorder ? to[k] : 0.0;
+      if (out_of > along_border * to.norm()) return std::nullopt;
     }
     return place;
   };

@@ -12,15 +12,21 @@ struct FlowPlace {
   SurfacePoint at;
   Vec3 tangent = Vec3::Zero();
   Vec3 normal = Vec3::UnitZ();
-  double value = 0.0;     // value of the flow's function
+  double value = 0.0;     // value of the flow's function; 0 for kAlongCurvature
   double gradient = 0.0;  // length of its gradient
+  // For kAlongCurvature: the direction is that of the larger curvature. Within a piece this changes only
+  // where a step has passed an umbilic.
+  bool of_max = false;
 };
 
 // A flow on a surface and the way along it. It refers to both.
 struct Flow {
   const Surface& surface;
   const FlowParams& params;
-  double sign = 1.0;  // +1 follows the flow, -1 runs against it
+  double sign = 1.0;  // +1 follows the flow, -1 runs against it; no effect for kAlongCurvature
+  // For kAlongCurvature: of the four principal directions, the line follows the one nearest to this vector.
+  // Zero: that of the smaller curvature, in either sense.
+  Vec3 heading = Vec3::Zero();
 };
 
 // nullopt at a singular point.

@@ -102,9 +102,12 @@ LineOrder FromProto(const v1::LineFamily& proto, const std::string& at, FieldErr
       order.family = SlopeExtremumLines{direction};
       break;
     case v1::LINE_KIND_FLOW:
-    case v1::LINE_KIND_SLOPE_FLOW: {
+    case v1::LINE_KIND_SLOPE_FLOW:
+    case v1::LINE_KIND_CURVATURE: {
       FlowParams flow;
-      flow.kind = proto.kind() == v1::LINE_KIND_FLOW ? FlowKind::kAlongHeight : FlowKind::kAlongSlope;
+      flow.kind = proto.kind() == v1::LINE_KIND_FLOW        ? FlowKind::kAlongHeight
+                  : proto.kind() == v1::LINE_KIND_CURVATURE ? FlowKind::kAlongCurvature
+                                                            : FlowKind::kAlongSlope;
       flow.axis = direction;
       flow.spacing = proto.spacing_mm();
       if (proto.has_spacing_mm()) {
@@ -218,6 +221,8 @@ std::string Describe(v1::LineKind kind, double wire_level) {
       return "flow of slopes";
     case v1::LINE_KIND_INTERSECTION:
       return "intersections";
+    case v1::LINE_KIND_CURVATURE:
+      return "lines of curvature";
     default:
       return "";
   }

@@ -37,6 +37,7 @@ void CheckFamily(const v1::LineFamily& family, const std::string& at, FieldError
   switch (family.kind()) {
     case v1::LINE_KIND_FLOW:
     case v1::LINE_KIND_SLOPE_FLOW:
+    case v1::LINE_KIND_CURVATURE:
     case v1::LINE_KIND_INTERSECTION:
       errors.Add(At(at, "kind"), fmt::format("= {}; its lines do not end at faces: use TraceLines",
                                              v1::LineKind_Name(family.kind())));

@@ -84,6 +84,22 @@ std::string Draw(const Surface& surface, const std::vector<LineOrder>& lines,
   return DrawPreview(input);
 }
 
+// One for each family of lines of curvature that has no line because of the shape.
+Diagnostics UmbilicFindings(const std::vector<TracedLevel>& levels) {
+  Diagnostics findings;
+  for (const TracedLevel& level : levels) {
+    if (!level.all_umbilic) continue;
+    findings.push_back(MakeInfo(
+        "CURVATURES_ALIKE",
+        fmt::format(
+            "there are no lines of curvature: both principal curvatures are alike (to {:g} of their mean) "
+            "all over the surface, as on planes and spheres",
+            kUmbilic),
+        {.field = fmt::format("families[{}]", level.family)}));
+  }
+  return findings;
+}
+
 }  // namespace
 
 absl::Status HandleTraceLines(const Call& call, const v1::TraceLinesRequest& request,
@@ -117,6 +133,7 @@ absl::Status HandleTraceLines(const Call& call, const v1::TraceLinesRequest& req
           for (const ZeroCurve& curve : level.curves) *set.add_lines() = ToProto(surface, curve, zero);
         }
         AddDiagnostics(HeaderRemarks(upright.model.remarks), zero, response->mutable_diagnostics());
+        AddDiagnostics(UmbilicFindings(levels), zero, response->mutable_diagnostics());
         AddDiagnostics(surface.network.findings, zero, response->mutable_diagnostics());
         *response->mutable_patch_ids() = PatchIds(surface.network.model);
         if (request.picture()) {

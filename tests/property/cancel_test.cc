@@ -272,6 +272,9 @@ TEST(Cancel, Lines) {
 TEST(Cancel, FlowLines) {
   const Surface surface = PlacedSurface(RandomPart(7, 8, 40.0));
   ExpectStops([&](const RunContext& run) { return TraceFlowLines(surface, {.spacing = 0.5}, run).status(); });
+  ExpectStops([&](const RunContext& run) {
+    return TraceFlowLines(surface, {.kind = FlowKind::kAlongCurvature, .spacing = 0.5}, run).status();
+  });
 }
 
 }  // namespace

@@ -138,6 +138,42 @@ TEST_F(Lines, FamiliesFromNormals) {
   EXPECT_THAT(Trace(), RpcStatusIs(StatusCode::INVALID_ARGUMENT, HasSubstr("families[0].from_normals")));
 }
 
+// Meridians and circles of the bowl, which has an umbilic in the middle. A level patch has none.
+TEST_F(Lines, CurvatureOfTheBowl) {
+  request_.mutable_families(0)->set_kind(v1::LINE_KIND_CURVATURE);
+  request_.mutable_families(0)->set_spacing_mm(2);
+  ASSERT_TRUE(Trace().ok());
+  ASSERT_EQ(response_.sets_size(), 1);
+  int closed = 0;
+  for (const v1::SurfaceLine& line : response_.sets(0).lines()) {
+    const int n = line.patch_index_size();
+    double least = 1e9, most = 0, turn = 0;
+    for (int k = 0; k < n; ++k) {
+      const double x = line.points_mm(3 * k), y = line.points_mm(3 * k + 1);
+      least = std::min(least, std::hypot(x, y));
+      most = std::max(most, std::hypot(x, y));
+      turn = std::max(turn, std::abs(x * line.points_mm(1) - y * line.points_mm(0)) / std::hypot(x, y));
+    }
+    EXPECT_LT(std::min(most - least, turn), 0.05);
+    closed += line.closed();
+    if (line.closed()) {
+      EXPECT_LT(most, 10.05);  // those that the square does not cut
+    }
+  }
+  EXPECT_GE(closed, 3);
+  EXPECT_GT(response_.sets(0).lines_size(), closed + 10);
+  for (const v1::Diagnostic& finding : response_.diagnostics()) EXPECT_NE(finding.code(), "CURVATURES_ALIKE");
+
+  auto& points =
+      *request_.mutable_source()->mutable_model()->mutable_patches(0)->mutable_bezier()->mutable_points();
+  for (int k = 2; k < points.size(); k += 3) points[k] = 0;
+  ASSERT_TRUE(Trace().ok());
+  EXPECT_EQ(response_.sets(0).lines_size(), 0);
+  int found = 0;
+  for (const v1::Diagnostic& finding : response_.diagnostics()) found += finding.code() == "CURVATURES_ALIKE";
+  EXPECT_EQ(found, 1);
+}
+
 TEST_F(Lines, FlowRunsUpTheBowl) {
   request_.mutable_families(0)->set_kind(v1::LINE_KIND_FLOW);
   request_.mutable_families(0)->set_spacing_mm(2);

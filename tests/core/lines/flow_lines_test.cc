@@ -19,7 +19,7 @@ using namespace testing;  // NOLINT: the support folder's
 std::vector<ZeroCurve> Trace(const Surface& surface, const FlowParams& params) {
   auto lines = TraceFlowLines(surface, params, RunContext());
   EXPECT_TRUE(lines.ok()) << lines.status();
-  return *std::move(lines);
+  return std::move(lines->curves);
 }
 
 TEST(FlowLines, StraightDownATiltedPlane) {
