@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
 # Runs one of the long tests of docs/long_tests.md, each in less than an hour, and writes its row of that page.
 #   scripts/long_tests.sh NAME
-# NAME: soak, clients, many, requests, whole, asan, asan_passes, asan_jobs, tsan, random, posts, certificates, fuzz, container, coverage, linuxcnc_times, freecad.
+# NAME: soak, clients, many, requests, whole, asan, asan_passes, asan_jobs, tsan, random, posts, certificates, fuzz, container, coverage, linuxcnc_times, freecad, cad_parts.
 # LIMIT: minutes after which a test is ended, 60 unless it is set; more for a machine that does other work beside.
-# PATCHMILL_BIN: of freecad, many and container, a folder with built programs; unset: they are built.
-# SEED: of soak, random, posts and certificates; another one each day unless it is set. MINUTES: of soak, 30 unless it is set.
+# PATCHMILL_BIN: of freecad, cad_parts, many and container, a folder with built programs; unset: they are built.
+# SEED: of soak, random, posts, certificates and cad_parts; another one each day unless it is set. MINUTES: of soak, 30 unless it is set.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 name="${1:-}"
@@ -116,6 +116,15 @@ linuxcnc_times() {  # five programs in LinuxCNC, without a display
   build release patchmill
   python3 tests/bench/linuxcnc_times.py build/release/bin/patchmill docs/machine.json --limit 5
 }
+cad_parts() {  # parts of fourteen kinds of operations, made with FreeCAD, as STEP and IGES
+  programs
+  install freecad
+  local folder
+  folder=$(mktemp -d)
+  SEED="$seed" COUNT=12 FOLDER="$folder" freecadcmd tests/cad/make_parts.py > /dev/null
+  tests/cad/check_files.py "${PATCHMILL_BIN:-build/release/bin}/patchmill" "$folder" --valid "$folder/parts.json"
+  rm -r "$folder"
+}
 freecad() {  # the add-on in Debian's FreeCAD
   programs
   install freecad xvfb xauth
@@ -124,7 +133,7 @@ freecad() {  # the add-on in Debian's FreeCAD
 
 case "$name" in
   soak) command="MINUTES=$minutes SEED=$seed scripts/long_tests.sh soak" ;;
-  clients | requests | random | posts | certificates) command="SEED=$seed scripts/long_tests.sh $name" ;;
+  clients | requests | random | posts | certificates | cad_parts) command="SEED=$seed scripts/long_tests.sh $name" ;;
   many | whole | asan | asan_passes | asan_jobs | tsan | fuzz | container | coverage | linuxcnc_times | freecad) command="scripts/long_tests.sh $name" ;;
   *)
     sed -n '2,7s/^# \?//p' "$0" >&2
@@ -145,7 +154,7 @@ if [ "${LONG_TESTS_INNER:-}" != "$name" ]; then
     *) result="**failed**, $took min" ;;
   esac
   # What the test says about itself in its last line, where it has one.
-  said=$(grep -E '^(soak|mixed_clients|container: passed|lines|TOTAL|linuxcnc_times|freecad)' "$log" | tail -1 | tr -s ' |' ' ' || true)
+  said=$(grep -E '^(soak|mixed_clients|check_files|container: passed|lines|TOTAL|linuxcnc_times|freecad)' "$log" | tail -1 | tr -s ' |' ' ' || true)
   commit=$(git rev-parse --short HEAD)
   [ -z "$(git status --porcelain --untracked-files=no)" ] || commit="$commit, changed"
   row="| $name | \`$command\` | $commit | $(date +%F) | $result${said:+; $said} |"
