@@ -3,8 +3,9 @@
 
   tests/cad/check_files.py PATCHMILL FOLDER [--valid FILE.json] [--seconds 60]
 
-PATCHMILL is the command line. FILE.json, as tests/cad/make_parts.py writes it, has the number of faces of each part by the name of
-its file, without the ending: a file with another number counts as refused. Ends with 1 if more than one file in twenty is refused.
+PATCHMILL is the command line. FILE.json, as tests/cad/make_parts.py writes it, has the number of faces of
+each part by the name of its file, without the ending: a file with another number counts as refused. Ends
+with 1 if more than one file in twenty is refused.
 """
 
 import argparse

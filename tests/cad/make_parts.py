@@ -2,10 +2,11 @@
 
   SEED=1 COUNT=6 FOLDER=parts freecadcmd tests/cad/make_parts.py
 
-Each part is made in a process of its own, because FreeCAD ends with a fault on some of them. COUNT parts of each kind: solids added
-and cut, fillets and chamfers, pockets with holes, lofts of splines and of circles, sweeps, solids of revolution, shells, domes,
-threads, stretched solids, slanting ellipses, offset sheets, assemblies with mirrored parts. The same seed gives the same parts.
-parts.json in the folder has the number of faces of each that FreeCAD finds valid, also after it has read its own STEP file again;
+Each part is made in a process of its own, because FreeCAD ends with a fault on some of them. COUNT parts
+of each kind: solids added and cut, fillets and chamfers, pockets with holes, lofts of splines and of
+circles, sweeps, solids of revolution, shells, domes, threads, stretched solids, slanting ellipses, offset
+sheets, assemblies with mirrored parts. The same seed gives the same parts. parts.json in the folder has
+the number of faces of each that FreeCAD finds valid, also after it has read its own STEP file again;
 others are not written. FreeCAD runs this file as a module, so all settings are variables.
 """
 

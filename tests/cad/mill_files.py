@@ -3,10 +3,10 @@
 
   tests/cad/mill_files.py PATCHMILL FOLDER [-o FOLDER_OF_RESULTS] [FILE ...]
 
-PATCHMILL is the command line, FOLDER has the files. Each is milled with its options of options.tsv, and its program is verified once
-more by `patchmill verify` with the same options. A file passes if the outcome is COMPLETE or COMPLETE_WHERE_REACHABLE, its second
-verdict finds no gouge, and no height had to be corrected by its certificate. Programs, reports and pictures stay in
-FOLDER_OF_RESULTS, if it is given.
+PATCHMILL is the command line, FOLDER has the files. Each is milled with its options of options.tsv, and
+its program is verified once more by `patchmill verify` with the same options. A file passes if the
+outcome is COMPLETE or COMPLETE_WHERE_REACHABLE, its second verdict finds no gouge, and no height had to
+be corrected by its certificate. Programs, reports and pictures stay in FOLDER_OF_RESULTS, if it is given.
 """
 
 import argparse
