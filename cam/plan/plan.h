@@ -43,7 +43,7 @@ absl::StatusOr<std::vector<PlanPart>> VerifiedParts(const Surface& surface, cons
 
 // surface -> regions -> passes -> links -> program text -> verification. No program unless verified.
 absl::StatusOr<JobResult> RunJob(const Surface& surface, const Job& job, const RunContext& run);
-// The same where `resolved` is Resolve(surface, job) already.
+// Plans a job that is resolved already: `resolved` is the result of Resolve(surface, job).
 absl::StatusOr<JobResult> RunJob(const Surface& surface, const Job& job, const Resolved& resolved,
                                  const RunContext& run);
 

@@ -47,8 +47,8 @@ struct Resolved {
 // INVALID_ARGUMENT when heights contradict each other (clearance below model, stock or obstacles, stock top
 // below the model), and for patches that the model does not have. CANCELLED and DEADLINE_EXCEEDED from `run`.
 absl::StatusOr<Resolved> Resolve(const Surface& surface, const Job& job, const RunContext& run);
-// The same for a job with other tools or limits than an earlier one, but its set-up: `stock` is the earlier
-// Resolved::stock, which is not made again.
+// Resolves a job that has the set-up of an earlier one, but other tools or limits: `stock` is the
+// Resolved::stock of the earlier one, which is not made again.
 absl::StatusOr<Resolved> Resolve(const Surface& surface, const Job& job,
                                  std::shared_ptr<const StockSolid> stock, const RunContext& run);
 

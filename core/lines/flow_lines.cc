@@ -206,7 +206,8 @@ class FlowTracer {
     Way way;
     std::vector<FlowPlace>& line = way.places;
     OwnWay own(start, params_);
-    // Where the line came beside itself. It may be about to reach its start, so it goes on for one spacing.
+    // The number of places at which the line came beside itself. It may be about to reach its start, so it
+    // goes on for one spacing.
     std::optional<std::size_t> beside;
     double beside_length = 0.0;
     FlowPlace at = start;

@@ -47,10 +47,6 @@ absl::StatusOr<UseTrace> TraceUse(const CarrierGrid& grid, const SpannedCurve& c
   }
   std::vector<Vec2> hints;
   for (const Vec2& h : use.hint) hints.push_back(GridCoordinates(grid, h));
-  for (std::size_t k = 0; k < hints.size(); ++k) {
-    trace.hint_gap =
-        std::max(trace.hint_gap, (PositionAt(grid, hints[k]) - PointAt(curve, use.hint_at[k]).p).norm());
-  }
   std::vector<double> samples;
   for (const CurveSpan& span : curve.spans) {
     for (int k = 0; k < kSamplesPerSpan; ++k) {
@@ -241,7 +237,6 @@ absl::StatusOr<BorderTrace> TraceBorder(const BrepFace& face, const EdgeCurveTab
         lines.Add(trace.iso, trace.constant);
       }
       border.gap = std::max(border.gap, trace.gap);
-      border.hint_gap = std::max(border.hint_gap, trace.hint_gap);
     }
   }
   for (std::vector<UseTrace>& loop : border.loops) {

@@ -27,7 +27,6 @@ struct UseTrace {
   std::vector<Vec2> places;   // grid coordinates
   Vec2 scale = Vec2::Ones();  // largest length of a unit of either coordinate along the edge, mm
   double gap = 0.0;           // largest distance of the edge from the surface, mm
-  double hint_gap = 0.0;      // largest distance of the edge from the file's own curve on the surface, mm
 
   const Vec2& begin() const { return forward ? places.front() : places.back(); }  // in the loop's direction
   const Vec2& end() const { return forward ? places.back() : places.front(); }
@@ -40,7 +39,7 @@ struct BorderTrace {
   // Iso-parametric sides between neighbours in a loop that meet in space within 1e-5 mm, but not in grid
   // coordinates: the file has no edge for them. `edge` and `scale` mean nothing here.
   std::vector<UseTrace> short_sides;
-  double gap = 0.0, hint_gap = 0.0;  // mm, of all edges
+  double gap = 0.0;  // mm, of all edges
 };
 
 // mm: a loop whose neighbours are farther apart is open.

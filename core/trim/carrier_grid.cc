@@ -195,7 +195,8 @@ Vec3 PositionAt(const CarrierGrid& grid, const Vec2& at) {
 
 namespace {
 
-// Of the way to the middle of its rectangle: how far a foot is moved where it cannot move by itself.
+// Where neither parameter moves the place, a foot is moved by this share of the way to the middle of its
+// rectangle.
 constexpr double kNudge = 1e-3;
 
 // FootOnGrid, where a parameter that moves the place by less than the root of `damping` of the other one

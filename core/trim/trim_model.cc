@@ -31,7 +31,8 @@ constexpr double kLargestGap = 0.05;       // mm: what a file may be off, at lea
 constexpr double kLargestGapShare = 2e-3;  // of the part's size: what it may be off where that is more
 constexpr double kAreaAgreement = 1e-4;    // of an area or a volume
 
-constexpr double kBoxMargin = 1e-4;  // of the part's size: by how much the box of a skipped face is larger
+constexpr double kWidestNeedle = 1e-4;  // mm: the widest face that may be left out
+constexpr double kBoxMargin = 1e-4;     // of the part's size: by how much the box of a skipped face is larger
 
 // One edge as a part of a face's border.
 struct UsePlace {
@@ -219,8 +220,10 @@ struct JudgedArea {
   double Width() const {
     return stated && border_length > 0.0 ? 2.0 * std::abs(*stated) / border_length : kInfinity;
   }
-  // Its neighbours' borders may overlap it from side to side.
-  bool IsNeedle(double border_tolerance) const { return Width() <= border_tolerance; }
+  // A gap that its absence leaves is no wider than borders may be off, whatever tolerance the user has set.
+  bool IsNeedle(double border_tolerance) const {
+    return Width() <= std::min(border_tolerance, kWidestNeedle);
+  }
 };
 
 // The faults of one trimmed face.
@@ -459,10 +462,7 @@ absl::StatusOr<TrimmedModel> Join(const BrepModel& part, const EdgeCurveTable& c
     }
     // The border may be off by as much, all along.
     const double length = BorderLength(part.faces[f], curves);
-    // The file's area is that within its own curves on the surface, which may leave its edges in space.
-    const GridTrace* trace = traced[f].grid();
-    const double curves_off = trace == nullptr ? 0.0 : std::min(trace->border.hint_gap, kOpenLoop);
-    const double slack = 1e-3 + cut[f].dropped_area + length * (face.border_error + face.gap + curves_off);
+    const double slack = 1e-3 + cut[f].dropped_area + length * (face.border_error + face.gap);
     const JudgedArea judged{part.faces[f].area, slack, length};
     for (Diagnostic& finding : FaceFindings(named, face, cut[f], judged, params)) {
       result.findings.push_back(std::move(finding));

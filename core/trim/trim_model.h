@@ -41,9 +41,9 @@ struct TrimmedModel {
   PatchModel model;
   std::vector<TrimmedFace> faces;                                     // as BrepModel::faces
   double largest_gap = 0.0, border_error = 0.0, surface_error = 0.0;  // of all faces
-  // SURFACES_APPROXIMATED (info): which faces have a surface_error, and the largest.
-  // FACE_LOST (error): the face has no patches. FACE_TOO_NARROW (warning): it has none, and its area is
-  // at most that of a strip of half its border's length that is as wide as the border tolerance.
+  // SURFACES_APPROXIMATED (info): which faces have a surface_error, and the largest. FACE_LOST (error):
+  // the face has no patches. FACE_TOO_NARROW (warning): it has none, and its area is at most that of a
+  // strip of half its border's length that is as wide as the border tolerance, 1e-4 mm at most.
   // FACE_AREA_DIFFERS, VOLUME_DIFFERS (error): patches and file disagree by more than 1e-4 of the area of
   // a face or the volume of a closed body, and by more than its border may be off. BORDER_COARSE
   // (warning): the border tolerance is not reached. GAP (warning): an edge lies farther from its surface

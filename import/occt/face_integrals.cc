@@ -5,22 +5,20 @@
 #include <cstddef>
 #include <span>
 
-#include <GeomAdaptor_Surface.hxx>
 #include <Geom_BSplineSurface.hxx>
 #include <Geom_ElementarySurface.hxx>
 #include <Geom_Plane.hxx>
-#include <TColStd_Array1OfReal.hxx>
 
 #include "core/base/index.h"
 #include "core/math/gauss_rule.h"
 #include "import/occt/convert.h"
+#include "import/occt/surface_knots.h"
 
 namespace patchmill {
 namespace {
 
 constexpr std::size_t kManyBreaks = 64;  // from so many knots on, four points between two of them do
 constexpr double kAgreement = 1e-8;
-constexpr double kSameBreak = 1e-9;  // of the range
 constexpr int kMostHalvings = 5;
 // Into how many steps a direction is cut at least, so that eight points follow an arc or a high degree.
 int FewestSteps(const Geom_Surface& bare) {
@@ -36,32 +34,8 @@ using Sums = Eigen::Vector2d;  // area and volume
 std::vector<double> BreaksOf(const Handle(Geom_Surface) & bare, const NeededParameters& range, bool along_u) {
   const NeededParameters::Range& own = along_u ? range.u : range.v;
   if (!(own.low < own.high)) return {own.low, own.high};
-  std::vector<double> breaks = {own.low};
-  const GeomAdaptor_Surface adaptor(bare);
-  const int count = along_u ? adaptor.NbUIntervals(GeomAbs_CN) : adaptor.NbVIntervals(GeomAbs_CN);
-  TColStd_Array1OfReal at(1, count + 1);
-  if (along_u) {
-    adaptor.UIntervals(at, GeomAbs_CN);
-  } else {
-    adaptor.VIntervals(at, GeomAbs_CN);
-  }
-  const bool turns = along_u ? bare->IsUPeriodic() : bare->IsVPeriodic();
-  const double period = !turns ? 0.0 : (along_u ? bare->UPeriod() : bare->VPeriod());
-  for (int turn = turns ? -2 : 0; turn <= (turns ? 2 : 0); ++turn) {
-    for (const double x : at) {
-      const double moved = x + turn * period;
-      if (moved > own.low && moved < own.high) breaks.push_back(moved);
-    }
-  }
-  breaks.push_back(own.high);
-  std::sort(breaks.begin(), breaks.end());
-  // A span between the end of the range and a knot beside it needs no steps, and must not take them from
-  // the others.
-  const double close = kSameBreak * (own.high - own.low);
-  breaks.erase(
-      std::unique(breaks.begin(), breaks.end(), [close](double a, double b) { return b - a <= close; }),
-      breaks.end());
-  breaks.back() = own.high;
+  // A span between the end of the range and a knot beside it would take steps from the others.
+  const std::vector<double> breaks = KnotsWithin(bare, {own.low, own.high}, along_u);
   const auto spans = static_cast<int>(breaks.size()) - 1;
   const int fewest = along_u ? FewestSteps(*bare) : 1;
   if (spans >= fewest) return breaks;

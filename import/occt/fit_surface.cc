@@ -6,8 +6,6 @@
 #include <cstddef>
 #include <vector>
 
-#include <GeomAdaptor_Surface.hxx>
-#include <TColStd_Array1OfReal.hxx>
 #include <absl/status/status.h>
 #include <absl/strings/str_format.h>
 
@@ -45,35 +43,6 @@ Basis BasisAt(const std::array<double, kCount>& places) {
     for (int i = 0; i < kNodes; ++i) basis(static_cast<Eigen::Index>(k), i) = b[i];
   }
   return basis;
-}
-
-// The ends of the range, and the surface's knots between them.
-Breaks KnotsOf(const Handle(Geom_Surface) & surface, const ParameterRange& range, bool along_u) {
-  const GeomAdaptor_Surface adaptor(surface);
-  const int count = along_u ? adaptor.NbUIntervals(GeomAbs_CN) : adaptor.NbVIntervals(GeomAbs_CN);
-  TColStd_Array1OfReal at(1, count + 1);
-  if (along_u) {
-    adaptor.UIntervals(at, GeomAbs_CN);
-  } else {
-    adaptor.VIntervals(at, GeomAbs_CN);
-  }
-  const bool turns = along_u ? surface->IsUPeriodic() : surface->IsVPeriodic();
-  const double period = !turns ? 0.0 : (along_u ? surface->UPeriod() : surface->VPeriod());
-  const double close = 1e-9 * (range.high - range.low);
-  Breaks breaks;
-  for (int turn = turns ? -2 : 0; turn <= (turns ? 2 : 0); ++turn) {
-    for (const double x : at) {
-      const double moved = x + turn * period;
-      if (moved > range.low + close && moved < range.high - close) breaks.push_back(moved);
-    }
-  }
-  std::sort(breaks.begin(), breaks.end());
-  Breaks all = {range.low};
-  for (const double x : breaks) {
-    if (x - all.back() > close) all.push_back(x);
-  }
-  all.push_back(range.high);
-  return all;
 }
 
 // One rectangle between breaks.
@@ -116,7 +85,7 @@ class Fitter {
       }
       for (int j = 0; j < kDegree; ++j) {
         const double both = off(between_[At(i)], between_[At(j)], at_between_.row(i), at_between_.row(j));
-        // What is off only between places of both kinds counts for the direction that is worse.
+        // A distance between the places of both u and v counts for the direction that is worse already.
         (cell.off_u >= cell.off_v ? cell.off_u : cell.off_v) =
             std::max(std::max(cell.off_u, cell.off_v), both);
       }
@@ -177,7 +146,7 @@ BsplinePatch Assembled(const Breaks& u, const Breaks& v, const std::vector<Cell>
 
 absl::StatusOr<FittedSurface> FitSurface(const Handle(Geom_Surface) & surface, const ParameterRange& u_range,
                                          const ParameterRange& v_range, double tolerance) {
-  Breaks u = KnotsOf(surface, u_range, true), v = KnotsOf(surface, v_range, false);
+  Breaks u = KnotsWithin(surface, u_range, true), v = KnotsWithin(surface, v_range, false);
   const Fitter fitter(*surface);
   for (;;) {
     if (u.size() > kMostParts + 1 || v.size() > kMostParts + 1) {

@@ -7,12 +7,9 @@
 #include <absl/status/statusor.h>
 
 #include "core/patch/patch.h"
+#include "import/occt/surface_knots.h"
 
 namespace patchmill {
-
-struct ParameterRange {
-  double low = 0.0, high = 0.0;
-};
 
 struct FittedSurface {
   BsplinePatch patch;  // of the surface's own parameters; degree 5, continuous, smooth within the error

@@ -23,7 +23,7 @@ FlowLines Trace(const Surface& surface, double spacing, double tolerance = 1e-3)
   return *std::move(lines);
 }
 
-// How far a function of places varies along a line.
+// The range of a function of places along a line.
 template <typename Function>
 double Spread(const ZeroCurve& line, const Function& function) {
   double low = kInfinity, high = -kInfinity;
@@ -34,7 +34,7 @@ double Spread(const ZeroCurve& line, const Function& function) {
   return high - low;
 }
 
-// How far the places leave the half plane through the z axis and the middle place.
+// The largest distance of the places from the half plane through the z axis and the middle place.
 double MeridianSpread(const ZeroCurve& line) {
   const Vec2 across = Xy(line.points[line.points.size() / 2].p).normalized();
   return Spread(line, [&](const Vec3& p) { return Cross(across, Xy(p)); });
