@@ -36,6 +36,21 @@ Vec2 SlopeAt(const CarrierGrid& grid, const SpannedCurve& curve, const Vec2& pla
   return g.inverse() * Vec2(d.dot(jet.du), d.dot(jet.dv));
 }
 
+// UseTrace::area_beside.
+double AreaBeside(const CarrierGrid& grid, const SpannedCurve& curve, const BrepEdgeUse& use,
+                  const std::vector<Vec2>& hints) {
+  double area = 0.0, last_off = 0.0;
+  Vec3 last = Vec3::Zero();
+  for (std::size_t k = 0; k < hints.size(); ++k) {
+    const Vec3 p = PointAt(curve, use.hint_at[k]).p;
+    const double off = std::min((PositionAt(grid, hints[k]) - p).norm(), kOpenLoop);
+    if (k > 0) area += 0.5 * (last_off + off) * (p - last).norm();
+    last = p;
+    last_off = off;
+  }
+  return area;
+}
+
 // Samples of the edge, and their feet.
 absl::StatusOr<UseTrace> TraceUse(const CarrierGrid& grid, const SpannedCurve& curve,
                                   const BrepEdgeUse& use) {
@@ -47,6 +62,7 @@ absl::StatusOr<UseTrace> TraceUse(const CarrierGrid& grid, const SpannedCurve& c
   }
   std::vector<Vec2> hints;
   for (const Vec2& h : use.hint) hints.push_back(GridCoordinates(grid, h));
+  trace.area_beside = AreaBeside(grid, curve, use, hints);
   std::vector<double> samples;
   for (const CurveSpan& span : curve.spans) {
     for (int k = 0; k < kSamplesPerSpan; ++k) {
@@ -237,6 +253,7 @@ absl::StatusOr<BorderTrace> TraceBorder(const BrepFace& face, const EdgeCurveTab
         lines.Add(trace.iso, trace.constant);
       }
       border.gap = std::max(border.gap, trace.gap);
+      border.area_beside += trace.area_beside;
     }
   }
   for (std::vector<UseTrace>& loop : border.loops) {

@@ -27,6 +27,9 @@ struct UseTrace {
   std::vector<Vec2> places;   // grid coordinates
   Vec2 scale = Vec2::Ones();  // largest length of a unit of either coordinate along the edge, mm
   double gap = 0.0;           // largest distance of the edge from the surface, mm
+  // mm^2, about: the area between the edge and the file's own curve on the surface, which may leave it.
+  // Distances above kOpenLoop count as that.
+  double area_beside = 0.0;
 
   const Vec2& begin() const { return forward ? places.front() : places.back(); }  // in the loop's direction
   const Vec2& end() const { return forward ? places.back() : places.front(); }
@@ -39,7 +42,8 @@ struct BorderTrace {
   // Iso-parametric sides between neighbours in a loop that meet in space within 1e-5 mm, but not in grid
   // coordinates: the file has no edge for them. `edge` and `scale` mean nothing here.
   std::vector<UseTrace> short_sides;
-  double gap = 0.0;  // mm, of all edges
+  double gap = 0.0;          // mm, of all edges
+  double area_beside = 0.0;  // mm^2, of all edges together
 };
 
 // mm: a loop whose neighbours are farther apart is open.

@@ -462,7 +462,10 @@ absl::StatusOr<TrimmedModel> Join(const BrepModel& part, const EdgeCurveTable& c
     }
     // The border may be off by as much, all along.
     const double length = BorderLength(part.faces[f], curves);
-    const double slack = 1e-3 + cut[f].dropped_area + length * (face.border_error + face.gap);
+    // The file's area is that within its own curves on the surface; the patches end at its edges in space.
+    const GridTrace* trace = traced[f].grid();
+    const double beside = trace == nullptr ? 0.0 : trace->border.area_beside;
+    const double slack = 1e-3 + cut[f].dropped_area + beside + length * (face.border_error + face.gap);
     const JudgedArea judged{part.faces[f].area, slack, length};
     for (Diagnostic& finding : FaceFindings(named, face, cut[f], judged, params)) {
       result.findings.push_back(std::move(finding));

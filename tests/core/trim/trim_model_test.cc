@@ -332,6 +332,28 @@ TEST(TrimSpline, StripsWhoseShortSidesHaveNoEdge) {
   }
 }
 
+// The file's curve of an edge on the surface bows out by 0.03 mm, so its area is 0.8 mm2 larger than that
+// within its edges. So much is no fault; twice as much is.
+TEST(TrimJudges, AreasWithinCurvesThatLeaveTheirEdges) {
+  BsplinePatch sheet{1, 1, {0, 0, 1, 1}, {0, 0, 1, 1}, {}, {}};
+  sheet.points = {{-10, -10, 0}, {-10, 50, 0}, {50, -10, 0}, {50, 50, 0}};
+  for (const double stated : {1200.0, 1200.8, 1201.6}) {
+    PartMaker maker;
+    BrepFace& face =
+        maker.Face(BrepSpline{sheet}, {Rectangle(maker, {{0, 0, 0}, {40, 0, 0}, {40, 30, 0}, {0, 30, 0}})});
+    for (BrepEdgeUse& use : face.loops[0]) {
+      for (Vec2& hint : use.hint) hint = (hint + Vec2(10, 10)) / 60.0;
+    }
+    BrepEdgeUse& first = face.loops[0][0];
+    for (std::size_t k = 0; k < first.hint.size(); ++k)
+      first.hint[k].y() -= 0.03 * 4 * first.hint_at[k] * (1 - first.hint_at[k]) / 60.0;
+    face.area = stated;
+    EXPECT_EQ(CodesOf(maker.part()),
+              stated > 1201 ? std::vector<std::string>{"FACE_AREA_DIFFERS"} : std::vector<std::string>{})
+        << stated;
+  }
+}
+
 // A face that cannot be trimmed is left out, and said to be, where it is narrower than borders may be off;
 // a wider one is lost.
 TEST(TrimJudges, NeedlesWithoutPatchesAreNoLoss) {
